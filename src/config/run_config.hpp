@@ -1,0 +1,96 @@
+#pragma once
+// What a case asks for, in SI, checked and complete: the end product of reading a case file, constant from then on.
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "core/types.hpp"
+
+namespace knap {
+
+enum class ParticleShape { Sphere, Ellipsoid, Box, MeshFile };
+
+struct ParticleConfig {
+  ParticleShape shape = ParticleShape::Sphere;
+  double diameter = 0.0;            ///< sphere [m]
+  Vec3 diameters = Vec3::Zero();    ///< ellipsoid, along x, y, z [m]
+  Vec3 lengths = Vec3::Zero();      ///< box, along x, y, z [m]
+  std::filesystem::path mesh_file;  ///< Gmsh .msh, relative to the case file's folder
+  double mesh_scale = 1.0;          ///< metres per unit of mesh_file
+};
+
+struct MeshConfig {
+  double element_size = 0.0;          ///< far from the contact [m]; default: about 20k tets
+  double contact_element_size = 0.0;  ///< at the expected contact point [m]; default: element_size
+  double contact_extent = 0.0;        ///< radius of the refined region [m]
+  std::int64_t seed = 0;              ///< 0 = gmsh's own mesh; others rotate or jitter it
+  double perturbation = 0.0;          ///< random displacement of interior nodes over the local edge length [-]
+};
+
+struct MaterialConfig {
+  std::string preset;            ///< "" = none
+  double young_modulus = 0.0;    ///< long-term [Pa]
+  double poisson_ratio = 0.0;    ///< [-]
+  double density = 0.0;          ///< envelope [kg/m3]
+  double viscous_ratio = 0.0;    ///< stiffness of the viscoelastic branch over the long-term one [-]; 0 = elastic
+  double relaxation_time = 0.0;  ///< of that branch [s]
+};
+
+/// Friction between the faces of a softening crack, before full failure.
+enum class CrackFriction {
+  KeepsConfinedStrength,  ///< internal friction until full failure, then sliding friction
+  Blended                 ///< (1 - D) internal + D sliding friction
+};
+
+enum class Insertion { None, Extrinsic };
+
+struct FractureConfig {
+  Insertion insertion = Insertion::Extrinsic;
+  double strength = 0.0;              ///< sigma_c [Pa]
+  double fracture_energy = 0.0;       ///< mode I G_c [J/m2]; from toughness when that is given
+  double toughness = 0.0;             ///< K_IC [Pa m^1/2]
+  double mode_ii_ratio = 1.0;         ///< mode II over mode I fracture energy [-]
+  double shear_strength_ratio = 1.5;  ///< beta: cohesion over tensile strength [-]
+  double internal_friction = 0.8;     ///< mu_i of the criterion and of unbroken facets [-]
+  double sliding_friction = 0.1;      ///< mu of failed facets and between fragments [-]
+  CrackFriction crack_friction = CrackFriction::KeepsConfinedStrength;
+  double weibull_modulus = 0.0;           ///< 0 = uniform strength
+  double weibull_reference_volume = 0.0;  ///< [m3]; strength holds for this volume
+  std::int64_t weibull_seed = 1;
+  bool allow_unresolved = false;  ///< run although the sanity card refuses the mesh
+};
+
+struct ImpactConfig {
+  double speed = 0.0;          ///< [m/s]
+  double angle = 0.0;          ///< from the wall plane [rad]; pi/2 = normal
+  double azimuth = 0.0;        ///< of the tangential velocity, from x towards y [rad]
+  Vec3 spin = Vec3::Zero();    ///< angular velocity at the start [rad/s]
+  double wall_friction = 0.0;  ///< [-]
+};
+
+struct TimeConfig {
+  std::optional<double> end_time;  ///< [s]; absent = stop automatically
+  double step_safety = 0.5;        ///< time step over the nodal stability bound [-]
+  int threads = 0;                 ///< 0 = all processors
+  int insertion_interval = 4;      ///< steps between two checks of the insertion criterion
+  std::int64_t seed = 1;           ///< of everything random without a seed of its own
+};
+
+struct OutputConfig {
+  int frames = 40;                         ///< number of VTK frames over the run; 0 = none
+  std::optional<double> history_interval;  ///< simulated time between rows of history.csv [s]; absent = 500 rows
+  double checkpoint_interval = 60.0;       ///< wall-clock time between checkpoints [s]; 0 = none
+  bool picture = true;
+};
+
+struct RunConfig {
+  ParticleConfig particle;
+  MeshConfig mesh;
+  MaterialConfig material;
+  FractureConfig fracture;
+  ImpactConfig impact;
+  TimeConfig run;
+  OutputConfig output;
+};
+
+}  // namespace knap
