@@ -1,0 +1,23 @@
+#pragma once
+#include <span>
+
+#include "cohesive/cohesive_state.hpp"
+
+namespace knap {
+
+/// When the twins of a failed facet stop being treated as facing each other, in units of the facet's size h.
+struct HandOverOptions {
+  double jump_everywhere = 0.3;        ///< at all three corners [h]
+  double jump_somewhere = 0.6;         ///< at one corner [h]
+  std::span<const double> facet_size;  ///< h = 1.5 (V_minus + V_plus)/A [m]
+};
+
+/// Hands over to the general contact every failed facet between two fragments whose faces have moved apart or along
+/// each other that far; its records end. Returns how many.
+Index hand_over_faces(CrackState& cracks, Topology& topology, std::span<const Vec4> x,
+                      std::span<const Index> fragment_of_tet, const HandOverOptions& options);
+
+/// Per original vertex 1 where crack records still join its pieces.
+std::vector<std::uint8_t> vertices_with_records(const CrackState& cracks);
+
+}  // namespace knap

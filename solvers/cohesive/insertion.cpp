@@ -1,0 +1,153 @@
+#include "cohesive/insertion.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <numeric>
+
+#include "cohesive/crack_faces.hpp"
+
+namespace knap {
+namespace {
+
+// Groups of a star's corners joined by bonded facets: group[i] is the lowest index in the star of i's group.
+std::vector<Index> bonded_groups(const Topology& topology, std::span<const Index> star) {
+  std::vector<Index> parent(star.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](Index i) {
+    while (parent[at(i)] != i) i = parent[at(i)];
+    return i;
+  };
+  for (Index i = 0; i < to_index(star.size()); ++i) {
+    const Index tet = star[at(i)] >> 2;
+    for (Index local = 0; local < 4; ++local) {
+      const Index facet = topology.tet_facets[at(tet)][at(local)];
+      if (local == (star[at(i)] & 3) || facet == none) continue;
+      if (topology.facet_state[at(facet)] != FacetState::Bonded) continue;
+      const auto& sides = topology.facet_tets[at(facet)];
+      const Index other = sides[0] == tet ? sides[1] : sides[0];
+      if (other < tet) continue;  // each facet once
+      const auto found = std::lower_bound(star.begin(), star.end(), 4 * other);
+      assert(found != star.end() && (*found >> 2) == other);
+      const Index a = root(i);
+      const Index b = root(to_index(at(static_cast<Index>(found - star.begin()))));
+      parent[at(std::max(a, b))] = std::min(a, b);
+    }
+  }
+  for (Index i = 0; i < to_index(star.size()); ++i) parent[at(i)] = root(i);
+  return parent;
+}
+
+void sum_masses(const Topology& topology, NodalState& nodes, std::span<const Index> star,
+                std::span<const double> corner_mass) {
+  for (const Index corner : star) nodes.mass[at(topology.node_of_corner(corner))] = 0.0;
+  for (const Index corner : star) nodes.mass[at(topology.node_of_corner(corner))] += corner_mass[at(corner >> 2)];
+}
+
+// The nodes of the records at a vertex follow its corners; records whose two sides have just come apart are activated.
+void refresh_records(CrackState& cracks, const Topology& topology, Index vertex, const InsertionOptions& options) {
+  for (CrackRecord& record : cracks.records_of_vertex[at(vertex)]) {
+    CrackFace& face = cracks.faces[at(record.face)];
+    const bool was_active = record.node_a != record.node_b;
+    record.node_a = topology.facet_node(face.facet, record.corner, 0);
+    record.node_b = topology.facet_node(face.facet, record.corner, 1);
+    face.nodes[record.corner] = {record.node_a, record.node_b};
+    if (was_active || record.node_a == record.node_b) continue;
+    const auto& [minus, plus] = topology.facet_tets[at(face.facet)];
+    const Vec3 t = facet_traction(options.stress[at(minus)], options.stress[at(plus)], face.normal);
+    record.impulse = -options.dt * record.tributary_area * t;
+  }
+}
+
+void add_face(CrackState& cracks, Topology& topology, const OverloadedFacet& overloaded,
+              const InsertionOptions& options) {
+  const Index facet = overloaded.facet;
+  const Index slot = to_index(cracks.faces.size());
+  topology.facet_state[at(facet)] = FacetState::Cohesive;
+  cracks.face_of_facet[at(facet)] = slot;
+  CrackFace face;
+  face.facet = facet;
+  face.area = options.facet_area[at(facet)];
+  cracks.cracked_area += face.area;
+  for (int k = 0; k < 3; ++k) {
+    CrackRecord record;
+    record.tributary_area = face.area / 3.0;
+    record.s0 = overloaded.effective;
+    record.delta_c = 2.0 * options.fracture_energy[at(facet)] / record.s0;
+    record.face = slot;
+    record.corner = static_cast<std::uint8_t>(k);
+    cracks.records_of_vertex[at(topology.facet_vertex(facet, k))].push_back(record);
+    face.nodes[at(k)] = {topology.facet_node(facet, k, 0), topology.facet_node(facet, k, 1)};
+  }
+  cracks.faces.push_back(face);
+}
+
+void sort_unique(std::vector<Index>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+}  // namespace
+
+CrackState make_crack_state(const Topology& topology) {
+  CrackState cracks;
+  cracks.face_of_facet.assign(at(topology.num_facets()), none);
+  cracks.records_of_vertex.resize(at(topology.num_vertices()));
+  cracks.losses_of_vertex.resize(at(topology.num_vertices()));
+  return cracks;
+}
+
+std::vector<Index> split_vertex(Topology& topology, NodalState& nodes, Index vertex,
+                                std::span<const double> corner_mass) {
+  const auto star = topology.corners_of_vertex[vertex];
+  const auto group = bonded_groups(topology, star);
+  std::vector<std::pair<Index, Index>> owner;  // old node, the group that keeps it
+  std::vector<Index> new_node(star.size(), none);
+  std::vector<Index> changed;
+  for (Index i = 0; i < to_index(star.size()); ++i) {
+    const Index corner = star[at(i)];
+    Index& node = topology.tet_nodes[at(corner >> 2)][at(corner & 3)];
+    const Index g = group[at(i)];
+    if (new_node[at(g)] == none) {  // first corner of its group
+      const auto kept =
+          std::find_if(owner.begin(), owner.end(), [node](const auto& pair) { return pair.first == node; });
+      if (kept == owner.end()) {
+        owner.emplace_back(node, g);
+        new_node[at(g)] = node;
+      } else {
+        new_node[at(g)] = append_copy(nodes, node);
+        topology.vertex_of_node.push_back(vertex);
+      }
+    }
+    if (node == new_node[at(g)]) continue;
+    node = new_node[at(g)];
+    changed.push_back(corner >> 2);
+  }
+  if (!changed.empty()) sum_masses(topology, nodes, star, corner_mass);
+  return changed;
+}
+
+InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState& nodes,
+                              std::span<const OverloadedFacet> facets, const InsertionOptions& options) {
+  InsertionChange change;
+  const std::size_t first_new = cracks.faces.size();
+  for (const auto& overloaded : facets) {
+    add_face(cracks, topology, overloaded, options);
+    for (int k = 0; k < 3; ++k) change.split_vertices.push_back(topology.facet_vertex(overloaded.facet, k));
+  }
+  for (std::size_t slot = first_new; slot < cracks.faces.size(); ++slot) update_normal(cracks.faces[slot], nodes.x);
+  sort_unique(change.split_vertices);
+  for (const Index vertex : change.split_vertices) {
+    const auto changed = split_vertex(topology, nodes, vertex, options.corner_mass);
+    change.changed_tets.insert(change.changed_tets.end(), changed.begin(), changed.end());
+  }
+  for (const Index vertex : change.split_vertices) refresh_records(cracks, topology, vertex, options);
+  sort_unique(change.changed_tets);
+
+  const auto old_end = static_cast<std::ptrdiff_t>(cracks.vertices.size());
+  cracks.vertices.insert(cracks.vertices.end(), change.split_vertices.begin(), change.split_vertices.end());
+  std::inplace_merge(cracks.vertices.begin(), cracks.vertices.begin() + old_end, cracks.vertices.end());
+  cracks.vertices.erase(std::unique(cracks.vertices.begin(), cracks.vertices.end()), cracks.vertices.end());
+  return change;
+}
+
+}  // namespace knap

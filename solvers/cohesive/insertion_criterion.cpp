@@ -1,0 +1,52 @@
+#include "cohesive/insertion_criterion.hpp"
+
+#include "core/parallel.hpp"
+
+namespace knap {
+namespace {
+
+constexpr Index facets_per_block = 2048;
+
+Vec3 facet_normal(const Topology& topology, std::span<const Vec4> x, Index facet) {
+  const Vec3 a = xyz(x[at(topology.facet_node(facet, 0, 0))]);
+  const Vec3 b = xyz(x[at(topology.facet_node(facet, 1, 0))]);
+  const Vec3 c = xyz(x[at(topology.facet_node(facet, 2, 0))]);
+  return (b - a).cross(c - a).normalized();
+}
+
+}  // namespace
+
+double effective_traction(const CohesiveLaw& law, const Vec3& t, const Vec3& normal) {
+  const double tn = t.dot(normal);
+  const double tt2 = std::max(0.0, t.squaredNorm() - tn * tn);
+  if (tn >= 0.0) return std::sqrt(tn * tn + tt2 / (law.beta * law.beta));
+  return (std::sqrt(tt2) + law.internal_friction * tn) / law.beta;
+}
+
+std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::span<const Vec4> x,
+                                               std::span<const TetStress> stress, std::span<const double> strength,
+                                               const CohesiveLaw& law) {
+  const Index blocks = num_blocks(topology.num_facets(), facets_per_block);
+  std::vector<std::vector<OverloadedFacet>> found(at(blocks));
+  // The effective traction is at most |t| max(1, 1/beta), and |t| at most the mean of the two stresses' bounds.
+  const double bound_factor = 0.5 * std::max(1.0, 1.0 / law.beta);
+  parallel_blocks(blocks, [&](Index block) {
+    const Index end = std::min(topology.num_facets(), (block + 1) * facets_per_block);
+    for (Index facet = block * facets_per_block; facet < end; ++facet) {
+      const auto& [minus, plus] = topology.facet_tets[at(facet)];
+      const TetStress& sa = stress[at(minus)];
+      const TetStress& sb = stress[at(plus)];
+      if (bound_factor * (sa.norm + sb.norm) < strength[at(facet)]) continue;
+      if (topology.facet_state[at(facet)] != FacetState::Bonded) continue;
+      const Vec3 n = facet_normal(topology, x, facet);
+      const Vec3 t = facet_traction(sa, sb, n);
+      const double effective = effective_traction(law, t, n);
+      if (effective >= strength[at(facet)]) found[at(block)].push_back({facet, effective, t});
+    }
+  });
+  std::vector<OverloadedFacet> all;
+  for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+}  // namespace knap

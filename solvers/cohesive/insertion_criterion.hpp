@@ -1,0 +1,26 @@
+#pragma once
+#include <span>
+
+#include "cohesive/linear_softening.hpp"
+#include "core/tet_stress.hpp"
+#include "core/topology.hpp"
+
+namespace knap {
+
+/// Effective traction [Pa] to compare with the strength: tension sqrt(t_n^2 + (t_t/beta)^2), compression
+/// (|t_t| + mu_i t_n)/beta (Mohr-Coulomb with cohesion beta sigma_c).
+double effective_traction(const CohesiveLaw& law, const Vec3& traction, const Vec3& normal);
+
+/// A facet that must open.
+struct OverloadedFacet {
+  Index facet = none;
+  double effective = 0.0;        ///< [Pa]
+  Vec3 traction = Vec3::Zero();  ///< of the plus side on the minus side [Pa]
+};
+
+/// The bonded facets whose mean traction of both tets, on the current normal, reaches their strength; ascending.
+std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::span<const Vec4> x,
+                                               std::span<const TetStress> stress, std::span<const double> strength,
+                                               const CohesiveLaw& law);
+
+}  // namespace knap

@@ -1,0 +1,173 @@
+#include "contact/broad_phase.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "contact/free_faces.hpp"
+#include "core/parallel.hpp"
+
+namespace knap {
+namespace {
+
+constexpr Index tets_per_block = 512;
+constexpr double max_cells = 4e6;
+
+/// Points sorted into the cells of a regular grid.
+struct PointGrid {
+  Vec3 origin = Vec3::Zero();
+  double cell = 1.0;
+  Eigen::Vector3i size = Eigen::Vector3i::Ones();
+  Csr points_of_cell;
+
+  Eigen::Vector3i cell_of(const Vec3& p) const {
+    const Vec3 scaled = (p - origin) / cell;
+    Eigen::Vector3i c;
+    for (int k = 0; k < 3; ++k) c[k] = static_cast<int>(std::clamp(std::floor(scaled[k]), 0.0, size[k] - 1.0));
+    return c;
+  }
+  Index index(int i, int j, int k) const { return (k * size.y() + j) * size.x() + i; }
+};
+
+PointGrid make_grid(const std::vector<Vec3>& positions, double cell) {
+  PointGrid grid;
+  Eigen::AlignedBox3d box;
+  for (const Vec3& p : positions) box.extend(p);
+  grid.origin = box.min();
+  grid.cell = cell;
+  while ((box.sizes() / grid.cell).array().ceil().max(1.0).prod() > max_cells) grid.cell *= 1.5;
+  for (int k = 0; k < 3; ++k) grid.size[k] = std::max(1, static_cast<int>(std::ceil(box.sizes()[k] / grid.cell)));
+  std::vector<Index> cell_of_point(positions.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const Eigen::Vector3i c = grid.cell_of(positions[i]);
+    cell_of_point[i] = grid.index(c.x(), c.y(), c.z());
+  }
+  grid.points_of_cell = make_csr(grid.size.prod(), cell_of_point);
+  return grid;
+}
+
+/// The outward face planes of a tet, to bound distances from below.
+struct TetPlanes {
+  std::array<Vec3, 4> normal;
+  std::array<double, 4> offset;
+
+  TetPlanes(const TetCorners& nodes, std::span<const Vec4> x) {
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto& corners = facet_of_corner[i];
+      const Vec3 a = xyz(x[at(nodes[at(corners[0])])]);
+      const Vec3 b = xyz(x[at(nodes[at(corners[1])])]);
+      const Vec3 c = xyz(x[at(nodes[at(corners[2])])]);
+      normal[i] = (b - a).cross(c - a).normalized();
+      offset[i] = normal[i].dot(a);
+    }
+  }
+  double distance_bound(const Vec3& p) const {
+    double largest = -1e300;
+    for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, normal[i].dot(p) - offset[i]);
+    return std::max(0.0, largest);
+  }
+};
+
+bool joined_by_records(const ContactPoint& point, Index tet, const Topology& topology,
+                       std::span<const std::uint8_t> has_records) {
+  const TetCorners& vertices = topology.tet_vertices[at(tet)];
+  for (const Index node : point.nodes) {
+    if (node == none) continue;
+    const Index vertex = topology.vertex_of_node[at(node)];
+    if (has_records[at(vertex)] && std::find(vertices.begin(), vertices.end(), vertex) != vertices.end()) return true;
+  }
+  return false;
+}
+
+double mean_tet_size(const Topology& topology, std::span<const Vec4> x, const std::vector<Index>& tets) {
+  double sum = 0.0;
+  for (const Index t : tets)
+    sum += (xyz(x[at(topology.tet_nodes[at(t)][0])]) - xyz(x[at(topology.tet_nodes[at(t)][1])])).norm();
+  return tets.empty() ? 1.0 : sum / static_cast<double>(tets.size());
+}
+
+void watch_nodes(ContactState& contact, const Topology& topology, const std::vector<Index>& tets) {
+  contact.watched_nodes.clear();
+  for (const Index t : tets)
+    contact.watched_nodes.insert(contact.watched_nodes.end(), topology.tet_nodes[at(t)].begin(),
+                                 topology.tet_nodes[at(t)].end());
+  std::sort(contact.watched_nodes.begin(), contact.watched_nodes.end());
+  contact.watched_nodes.erase(std::unique(contact.watched_nodes.begin(), contact.watched_nodes.end()),
+                              contact.watched_nodes.end());
+}
+
+}  // namespace
+
+Vec3 position(const ContactPoint& point, std::span<const Vec4> x) {
+  if (point.is_node()) return xyz(x[at(point.nodes[0])]);
+  return (xyz(x[at(point.nodes[0])]) + xyz(x[at(point.nodes[1])]) + xyz(x[at(point.nodes[2])])) / 3.0;
+}
+
+void rebuild_candidates(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
+                        std::span<const std::uint8_t> has_records) {
+  contact.x_at_rebuild.assign(x.begin(), x.end());
+  contact.points.clear();
+  contact.candidates.clear();
+  contact.watched_nodes.clear();
+  if (contact.fragments < 2) return;
+  contact.free_faces = free_faces(topology);
+  contact.points = contact_points(topology, contact.free_faces, contact.fragment_of_tet);
+  std::vector<Index> tets;
+  for (Index t = 0; t < topology.num_tets(); ++t)
+    if (contact.free_faces[at(t)] != 0) tets.push_back(t);
+  watch_nodes(contact, topology, tets);
+
+  std::vector<Vec3> positions(contact.points.size());
+  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = position(contact.points[i], x);
+  const PointGrid grid = make_grid(positions, mean_tet_size(topology, x, tets));
+
+  const Index blocks = num_blocks(to_index(tets.size()), tets_per_block);
+  std::vector<std::vector<ContactCandidate>> found(at(blocks));
+  parallel_blocks(blocks, [&](Index block) {
+    const Index end = std::min(to_index(tets.size()), (block + 1) * tets_per_block);
+    for (Index k = block * tets_per_block; k < end; ++k) {
+      const Index tet = tets[at(k)];
+      const TetCorners& nodes = topology.tet_nodes[at(tet)];
+      Eigen::AlignedBox3d box;
+      for (const Index node : nodes) box.extend(Vec3(xyz(x[at(node)])));
+      const Eigen::Vector3i low = grid.cell_of(box.min() - Vec3::Constant(contact.skin));
+      const Eigen::Vector3i high = grid.cell_of(box.max() + Vec3::Constant(contact.skin));
+      const TetPlanes planes(nodes, x);
+      for (int c = low.z(); c <= high.z(); ++c)
+        for (int b = low.y(); b <= high.y(); ++b)
+          for (int a = low.x(); a <= high.x(); ++a)
+            for (const Index p : grid.points_of_cell[grid.index(a, b, c)]) {
+              const ContactPoint& point = contact.points[at(p)];
+              if (point.fragment == contact.fragment_of_tet[at(tet)]) continue;
+              const double separation = planes.distance_bound(positions[at(p)]);
+              if (separation > contact.skin || joined_by_records(point, tet, topology, has_records)) continue;
+              found[at(block)].push_back({p, tet, separation});
+            }
+    }
+  });
+  for (const auto& part : found) contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());
+  std::stable_sort(contact.candidates.begin(), contact.candidates.end(),
+                   [](const auto& a, const auto& b) { return a.separation < b.separation; });
+}
+
+double largest_motion(const ContactState& contact, std::span<const Vec4> x) {
+  const Index count = to_index(contact.watched_nodes.size());
+  if (count == 0) return 0.0;
+  const auto motion = [&](Index i) -> Vec4 {
+    const std::size_t node = at(contact.watched_nodes[at(i)]);
+    return x[node] - contact.x_at_rebuild[node];
+  };
+  struct VectorSum {
+    Vec4 value = Vec4::Zero();
+    VectorSum& operator+=(const Vec4& other) { return value += other, *this; }
+    VectorSum& operator+=(const VectorSum& other) { return value += other.value, *this; }
+  };
+  const Vec4 mean = ordered_sum<VectorSum>(count, motion).value / static_cast<double>(count);
+  struct Largest {
+    double value = 0.0;
+    Largest& operator+=(double other) { return value = std::max(value, other), *this; }
+    Largest& operator+=(const Largest& other) { return *this += other.value; }
+  };
+  return std::sqrt(ordered_sum<Largest>(count, [&](Index i) { return (motion(i) - mean).squaredNorm(); }).value);
+}
+
+}  // namespace knap

@@ -1,0 +1,12 @@
+#pragma once
+#include <span>
+
+#include "contact/contact_state.hpp"
+
+namespace knap {
+
+/// Updates contact.contacts: the candidates whose point is inside its tet now. `motion` is largest_motion since the
+/// rebuild. A contact that goes on keeps its impulse and the face it went in by.
+void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x, double motion);
+
+}  // namespace knap

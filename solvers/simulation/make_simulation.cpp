@@ -1,0 +1,97 @@
+#include "simulation/make_simulation.hpp"
+
+#include <fmt/format.h>
+
+#include "cohesive/insertion.hpp"
+#include "cohesive/strength_field.hpp"
+#include "core/errors.hpp"
+#include "fem/lumped_mass.hpp"
+#include "fem/stable_time_step.hpp"
+#include "fem/tet_reference.hpp"
+#include "simulation/step.hpp"
+
+namespace knap {
+namespace {
+
+// Candidate pairs are kept for fragments that move by this much of the mean edge towards each other.
+constexpr double skin_over_edge = 0.3;
+
+void measure_facets(ReferenceState& reference, const Topology& topology) {
+  for (Index facet = 0; facet < topology.num_facets(); ++facet) {
+    const Vec3& a = reference.vertices[at(topology.facet_vertex(facet, 0))];
+    const Vec3& b = reference.vertices[at(topology.facet_vertex(facet, 1))];
+    const Vec3& c = reference.vertices[at(topology.facet_vertex(facet, 2))];
+    const double area = 0.5 * (b - a).cross(c - a).norm();
+    const auto& [minus, plus] = topology.facet_tets[at(facet)];
+    reference.facet_area.push_back(area);
+    reference.facet_size.push_back(1.5 * (reference.tet_volume[at(minus)] + reference.tet_volume[at(plus)]) / area);
+  }
+}
+
+void give_strengths(ReferenceState& reference, const Topology& topology, const FractureOptions& fracture) {
+  reference.facet_strength = facet_strengths(topology, reference.tet_volume,
+                                             {.strength = fracture.strength,
+                                              .weibull_modulus = fracture.weibull_modulus,
+                                              .reference_volume = fracture.weibull_reference_volume,
+                                              .seed = fracture.weibull_seed});
+  reference.fracture_energy.assign(at(topology.num_facets()), fracture.fracture_energy);
+}
+
+NodalState nodes_at_start(const SimulationOptions& options, const ReferenceState& reference, const Topology& topology) {
+  NodalState nodes;
+  visit_nodal_fields(nodes, [&](const char*, auto& field) {
+    field.assign(reference.vertices.size(), typename std::decay_t<decltype(field)>::value_type());
+  });
+  Vec3 first = Vec3::Zero();
+  double mass = 0.0;
+  for (Index i = 0; i < nodes.size(); ++i) {
+    nodes.mass[at(i)] = corner_sum(topology.corners_of_vertex[i], reference.corner_mass);
+    nodes.x[at(i)] = padded(reference.vertices[at(i)]);
+    nodes.f[at(i)].setZero();
+    first += nodes.mass[at(i)] * reference.vertices[at(i)];
+    mass += nodes.mass[at(i)];
+  }
+  const Vec3 centre = first / mass;
+  for (Index i = 0; i < nodes.size(); ++i)
+    nodes.v[at(i)] = padded(options.velocity + options.spin.cross(reference.vertices[at(i)] - centre));
+  nodes.v_before = nodes.v;
+  return nodes;
+}
+
+}  // namespace
+
+Simulation make_simulation(const SimulationOptions& options, const TetMesh& mesh) {
+  Simulation s;
+  s.options = options;
+  s.topology = make_topology(mesh);
+  ReferenceState& reference = s.reference;
+  reference.vertices = mesh.vertices;
+  reference.tet_volume = tet_volumes(mesh.tets, mesh.vertices);
+  reference.mean_edge = mean_edge(mesh);
+  reference.corner_mass = corner_masses(s.topology, reference.tet_volume, options.density);
+  measure_facets(reference, s.topology);
+  s.nodes = nodes_at_start(options, reference, s.topology);
+
+  const Material material = make_material(options.young_modulus, options.poisson_ratio, options.density,
+                                          {options.viscous_ratio, options.relaxation_time});
+  reference.corner_stiffness = corner_stiffnesses(mesh.tets, mesh.vertices, material);
+  reference.critical_step = critical_time_step(s.topology, reference.corner_stiffness, s.nodes.mass);
+  s.clock.dt = options.step_safety * reference.critical_step;
+  s.elastic = make_elastic_force(s.topology, mesh.vertices, material);
+
+  s.cracks = make_crack_state(s.topology);
+  if (options.fracture) give_strengths(reference, s.topology, *options.fracture);
+  s.contact.fragment_of_tet.assign(mesh.tets.size(), 0);
+  s.contact.skin = skin_over_edge * reference.mean_edge;
+
+  reference.start = momentum(s.nodes);
+  reference.incident_energy = kinetic_energy(s.nodes);
+  s.ledger.reference = reference.incident_energy;
+  update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, 0.0);
+  balance_energies(s);
+  s.ledger.initial = s.ledger.total();
+  s.ledger.max_closure_error = 0.0;
+  return s;
+}
+
+}  // namespace knap

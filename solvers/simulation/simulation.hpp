@@ -1,0 +1,65 @@
+#pragma once
+#include "cohesive/cohesive_state.hpp"
+#include "cohesive/insertion_criterion.hpp"
+#include "cohesive/vertex_impulses.hpp"
+#include "contact/contact_impulses.hpp"
+#include "core/energy_ledger.hpp"
+#include "core/nodal_state.hpp"
+#include "fem/elastic_force.hpp"
+#include "simulation/options.hpp"
+#include "simulation/phase_times.hpp"
+#include "time/central_difference.hpp"
+
+namespace knap {
+
+struct Clock {
+  double dt = 0.0;        ///< [s]
+  std::int64_t step = 0;  ///< steps done
+  double time() const { return dt * static_cast<double>(step); }
+};
+
+/// What never changes once the mesh is known.
+struct ReferenceState {
+  std::vector<Vec3> vertices;            ///< [m]
+  std::vector<double> tet_volume;        ///< [m3]
+  std::vector<double> corner_mass;       ///< per tet, a quarter of its mass [kg]
+  std::vector<double> corner_stiffness;  ///< per corner, of the time-step bound [N/m]
+  std::vector<double> facet_area;        ///< [m2]
+  std::vector<double> facet_size;        ///< h = 1.5 (V_minus + V_plus)/A [m]
+  std::vector<double> facet_strength;    ///< [Pa]
+  std::vector<double> fracture_energy;   ///< per facet [J/m2]
+  double mean_edge = 0.0;                ///< [m]
+  double critical_step = 0.0;            ///< bound of the unbroken mesh [s]
+  Momentum start;                        ///< momenta at the start
+  double incident_energy = 0.0;          ///< kinetic at the start [J]
+};
+
+/// Sums over the run that no state variable holds.
+struct RunTotals {
+  ToolAction wall;                   ///< impulse, moment and losses so far
+  double mass_scaling_energy = 0.0;  ///< [J]
+  double added_mass = 0.0;           ///< by mass scaling [kg]
+  double max_wall_force = 0.0;       ///< magnitude of the normal force [N]
+  std::int64_t last_wall_step = -1;  ///< last step with a node on the wall
+  std::int64_t first_wall_step = -1;
+  std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
+  std::int64_t inserted_facets = 0;
+  std::int64_t inverted_tets = 0;  ///< found at the energy balances
+};
+
+/// A run: owns everything by value, has no methods.
+struct Simulation {
+  SimulationOptions options;
+  ReferenceState reference;
+  Topology topology;
+  NodalState nodes;
+  ElasticForce elastic;
+  CrackState cracks;
+  ContactState contact;
+  EnergyLedger ledger;
+  RunTotals totals;
+  Clock clock;
+  PhaseTimes phase_times;
+};
+
+}  // namespace knap

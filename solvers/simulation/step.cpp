@@ -1,0 +1,182 @@
+#include "simulation/step.hpp"
+
+#include <cmath>
+
+#include "cohesive/crack_faces.hpp"
+#include "cohesive/fragments.hpp"
+#include "cohesive/hand_over.hpp"
+#include "cohesive/insertion.hpp"
+#include "contact/broad_phase.hpp"
+#include "contact/contact_pairs.hpp"
+#include "fem/stable_time_step.hpp"
+
+namespace knap {
+namespace {
+
+// Pieces that splitting makes may come this near to their critical step before mass is added.
+constexpr double largest_step_safety = 0.9;
+
+VertexImpulseOptions impulse_options(const Simulation& s) {
+  return {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps};
+}
+
+bool has_cracks(const Simulation& s) { return !s.cracks.vertices.empty(); }
+
+// The corners of a vertex star that one node has.
+std::vector<Index> corners_of_node(const Topology& topology, Index vertex, Index node) {
+  std::vector<Index> corners;
+  for (const Index corner : topology.corners_of_vertex[vertex])
+    if (topology.node_of_corner(corner) == node) corners.push_back(corner);
+  return corners;
+}
+
+// Adds mass to pieces of a split vertex for which the time step would be more than the largest safe part of critical.
+void scale_masses(Simulation& s, std::span<const Index> split_vertices) {
+  const double critical = s.clock.dt / std::max(largest_step_safety, s.options.step_safety);
+  for (const Index vertex : split_vertices)
+    for (const Index corner : s.topology.corners_of_vertex[vertex]) {
+      const Index node = s.topology.node_of_corner(corner);
+      const auto corners = corners_of_node(s.topology, vertex, node);
+      if (corners.front() != corner) continue;  // each node once
+      const double needed = smallest_mass(corners, s.reference.corner_stiffness, critical);
+      const double missing = needed - s.nodes.mass[at(node)];
+      if (missing <= 0.0) continue;
+      s.nodes.mass[at(node)] = needed;
+      s.totals.added_mass += missing;
+      s.totals.mass_scaling_energy += 0.5 * missing * s.nodes.v[at(node)].squaredNorm();
+    }
+}
+
+void insert_new_cracks(Simulation& s) {
+  if (!s.options.fracture || s.clock.step % s.options.insertion_interval != 0) return;
+  const PhaseTimer timer(s.phase_times, Phase::Insertion);
+  update_stress(s.elastic, s.nodes.x);
+  const auto overloaded =
+      overloaded_facets(s.topology, s.nodes.x, s.elastic.stress, s.reference.facet_strength, s.options.fracture->law);
+  if (overloaded.empty()) return;
+  const auto change = insert_cracks(s.cracks, s.topology, s.nodes, overloaded,
+                                    {.dt = s.clock.dt,
+                                     .fracture_energy = s.reference.fracture_energy,
+                                     .facet_area = s.reference.facet_area,
+                                     .corner_mass = s.reference.corner_mass,
+                                     .stress = s.elastic.stress});
+  refresh_elastic_force(s.elastic, s.topology, change.changed_tets);
+  scale_masses(s, change.split_vertices);
+  s.totals.inserted_facets += static_cast<std::int64_t>(overloaded.size());
+  s.cracks.last_damage_step = s.clock.step;
+}
+
+void update_bulk(Simulation& s) {
+  const PhaseTimer timer(s.phase_times, Phase::BulkForces);
+  update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, s.clock.dt);
+}
+
+void update_faces(Simulation& s) {
+  if (!has_cracks(s)) return;
+  const PhaseTimer timer(s.phase_times, Phase::CrackFaces);
+  update_crack_faces(s.cracks, s.topology, s.nodes);
+  restore_angular_momentum(s.cracks, s.nodes);
+}
+
+void look_for_new_fragments(Simulation& s) {
+  auto labels = fragment_labels(s.topology, s.cracks, FragmentLabel::Strict);
+  const bool changed = labels != s.contact.fragment_of_tet;
+  s.contact.fragments = num_fragments(labels);
+  s.contact.fragment_of_tet = std::move(labels);
+  const Index handed_over = hand_over_faces(s.cracks, s.topology, s.nodes.x, s.contact.fragment_of_tet,
+                                            {.facet_size = s.reference.facet_size});
+  if (!changed && handed_over == 0) return;
+  rebuild_candidates(s.contact, s.topology, s.nodes.x, vertices_with_records(s.cracks));
+}
+
+void detect_contacts(Simulation& s) {
+  if (!s.options.fracture || s.totals.inserted_facets == 0) return;
+  const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
+  if (s.clock.step % s.options.label_interval == 0) look_for_new_fragments(s);
+  if (s.contact.fragments < 2) return;
+  double motion = largest_motion(s.contact, s.nodes.x);
+  if (2.0 * motion > s.contact.skin) {
+    rebuild_candidates(s.contact, s.topology, s.nodes.x, vertices_with_records(s.cracks));
+    motion = 0.0;
+  }
+  refresh_contacts(s.contact, s.topology, s.nodes.x, motion);
+}
+
+void apply_crack_impulses(Simulation& s) {
+  if (!has_cracks(s)) return;
+  const PhaseTimer timer(s.phase_times, Phase::VertexImpulses);
+  if (apply_vertex_impulses(s.cracks, s.nodes, impulse_options(s))) s.cracks.last_damage_step = s.clock.step;
+}
+
+void apply_fragment_contacts(Simulation& s) {
+  if (s.contact.contacts.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::ContactImpulses);
+  apply_contact_impulses(s.contact, s.nodes, {s.options.fracture->law.sliding_friction, s.options.contact_sweeps});
+  for (const Contact& contact : s.contact.contacts)
+    if (contact.impulse.squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
+}
+
+void apply_wall(Simulation& s) {
+  if (!s.options.wall) return;
+  const PhaseTimer timer(s.phase_times, Phase::Wall);
+  const ToolAction action = apply_plane(*s.options.wall, s.nodes, s.clock.dt);
+  s.totals.wall += action;
+  s.totals.max_wall_force = std::max(s.totals.max_wall_force, action.impulse.dot(s.options.wall->normal) / s.clock.dt);
+  if (action.contacts == 0) return;
+  if (s.totals.first_wall_step < 0) s.totals.first_wall_step = s.clock.step;
+  s.totals.last_wall_step = s.clock.step;
+}
+
+void book_losses(Simulation& s) {
+  const PhaseTimer timer(s.phase_times, Phase::Booking);
+  if (has_cracks(s)) book_crack_losses(s.cracks, s.nodes, impulse_options(s));
+  book_contact_losses(s.contact, s.nodes);
+}
+
+StepStatus check_energies(Simulation& s) {
+  if (s.clock.step % s.options.ledger_interval != 0) return StepStatus::Ok;
+  const PhaseTimer timer(s.phase_times, Phase::Ledger);
+  balance_energies(s);
+  const double error = s.ledger.closure_error();
+  if (!std::isfinite(error)) return StepStatus::NotFinite;
+  return error > energy_stop ? StepStatus::EnergyNotClosed : StepStatus::Ok;
+}
+
+}  // namespace
+
+void balance_energies(Simulation& s) {
+  EnergyLedger& ledger = s.ledger;
+  ledger[EnergyTerm::Kinetic] = kinetic_energy(s.nodes);
+  ledger[EnergyTerm::Strain] = strain_energy(s.elastic, s.nodes.x) - half_step_work(s.nodes, s.clock.dt);
+  if (s.options.fracture) {
+    const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
+    ledger[EnergyTerm::CohesiveStored] = cracks.stored;
+    ledger[EnergyTerm::CohesiveDissipated] = cracks.cohesive;
+    ledger[EnergyTerm::ClosureImpact] = cracks.closure;
+    ledger[EnergyTerm::CrackFriction] = cracks.friction;
+  }
+  ledger[EnergyTerm::ContactDissipated] = s.contact.dissipated;
+  ledger[EnergyTerm::ToolFriction] = s.totals.wall.friction_loss;
+  ledger[EnergyTerm::ToolImpact] = s.totals.wall.impact_loss;
+  ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
+  ledger[EnergyTerm::MassScaling] = -s.totals.mass_scaling_energy;
+  ledger.max_closure_error = std::max(ledger.max_closure_error, ledger.closure_error());
+}
+
+StepStatus step(Simulation& s) {
+  insert_new_cracks(s);
+  update_bulk(s);
+  kick(s.nodes, s.clock.dt);
+  update_faces(s);
+  detect_contacts(s);
+  apply_crack_impulses(s);
+  apply_fragment_contacts(s);
+  apply_wall(s);
+  book_losses(s);
+  const StepStatus status = check_energies(s);
+  drift(s.nodes, s.clock.dt);
+  ++s.clock.step;
+  return status;
+}
+
+}  // namespace knap

@@ -1,0 +1,19 @@
+#pragma once
+#include "simulation/simulation.hpp"
+
+namespace knap {
+
+enum class StepStatus { Ok, EnergyNotClosed, NotFinite };
+
+/// A closure error above this ends the run.
+inline constexpr double energy_stop = 0.05;
+/// A closure error above this is a warning.
+inline constexpr double energy_warning = 0.01;
+
+/// One step of the clock: forces and impulses at the positions of the whole step, then new velocities and positions.
+StepStatus step(Simulation& s);
+
+/// Brings the ledger up to date; the velocities must be those of the half step after nodes.x, with nodes.f of nodes.x.
+void balance_energies(Simulation& s);
+
+}  // namespace knap

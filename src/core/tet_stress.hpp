@@ -1,0 +1,24 @@
+#pragma once
+#include "core/types.hpp"
+
+namespace knap {
+
+/// Symmetric Cauchy stress of a tet [Pa], one cache line.
+struct alignas(64) TetStress {
+  double xx = 0.0, yy = 0.0, zz = 0.0, yz = 0.0, zx = 0.0, xy = 0.0;  ///< [Pa]
+  double norm = 0.0;          ///< Frobenius norm, at least the traction on any plane [Pa]
+  double volume_ratio = 1.0;  ///< J [-], <= 0 when inverted
+};
+
+/// Traction [Pa] that a stress exerts on a plane with unit normal n.
+inline Vec3 traction(const TetStress& s, const Vec3& n) {
+  return {s.xx * n.x() + s.xy * n.y() + s.zx * n.z(), s.xy * n.x() + s.yy * n.y() + s.yz * n.z(),
+          s.zx * n.x() + s.yz * n.y() + s.zz * n.z()};
+}
+
+/// Traction [Pa] on a facet with unit normal n, from the mean stress of its two tets.
+inline Vec3 facet_traction(const TetStress& minus, const TetStress& plus, const Vec3& n) {
+  return 0.5 * (traction(minus, n) + traction(plus, n));
+}
+
+}  // namespace knap
