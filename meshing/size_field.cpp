@@ -1,0 +1,48 @@
+#include "meshing/size_field.hpp"
+
+#include <fmt/format.h>
+#include <gmsh.h>
+
+#include <numbers>
+
+#include "meshing/split_mix.hpp"
+
+namespace knap {
+namespace {
+
+int add_ball(const TetrahedraliseOptions& options) {
+  namespace field = gmsh::model::mesh::field;
+  const int ball = field::add("Ball");
+  const double inside = options.contact_element_size > 0.0 ? options.contact_element_size : options.element_size;
+  field::setNumber(ball, "VIn", inside);
+  field::setNumber(ball, "VOut", options.element_size);
+  field::setNumber(ball, "Radius", options.contact_extent);
+  field::setNumber(ball, "Thickness", options.contact_extent);
+  field::setNumber(ball, "XCenter", options.contact_point.x());
+  field::setNumber(ball, "YCenter", options.contact_point.y());
+  field::setNumber(ball, "ZCenter", options.contact_point.z());
+  return ball;
+}
+
+// A plane wave about 8 elements long.
+int add_wave(int ball, const TetrahedraliseOptions& options) {
+  namespace field = gmsh::model::mesh::field;
+  SplitMix random{static_cast<std::uint64_t>(options.seed)};
+  const Vec3 direction = random_rotation(random).col(0);
+  const Vec3 k = direction * (2.0 * std::numbers::pi / (8.0 * options.element_size));
+  const double phase = 2.0 * std::numbers::pi * random.uniform();
+  const int wave = field::add("MathEval");
+  field::setString(wave, "F",
+                   fmt::format("F{} * (1 + 0.03 * Sin({:.17g} * x + {:.17g} * y + {:.17g} * z + {:.17g}))", ball, k.x(),
+                               k.y(), k.z(), phase));
+  return wave;
+}
+
+}  // namespace
+
+void add_size_field(const TetrahedraliseOptions& options, bool modulated) {
+  const int ball = add_ball(options);
+  gmsh::model::mesh::field::setAsBackgroundMesh(modulated ? add_wave(ball, options) : ball);
+}
+
+}  // namespace knap
