@@ -13,8 +13,8 @@ inline constexpr Index min_resolved_tets = 10;
 /// A connected piece of the particle. Motion is that of the lumped masses (a tet's mass in equal parts at its corners);
 /// shape is that of the current positions. docs/breakage_measures.md defines every number.
 struct Fragment {
-  Index id = none;               ///< rank by mass: 0 is the largest
-  Index num_tets = 0;            ///<
+  Index id = none;  ///< rank by mass: 0 is the largest
+  Index num_tets = 0;
   double mass = 0.0;             ///< [kg]
   double volume = 0.0;           ///< of the undeformed tets [m3]
   Vec3 centre = Vec3::Zero();    ///< of mass [m]

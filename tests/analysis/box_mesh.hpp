@@ -1,5 +1,4 @@
 #pragma once
-#include <numeric>
 
 #include "analysis/fragments.hpp"
 #include "core/topology.hpp"
