@@ -15,8 +15,9 @@ struct ParticleConfig {
   double diameter = 0.0;            ///< sphere [m]
   Vec3 diameters = Vec3::Zero();    ///< ellipsoid, along x, y, z [m]
   Vec3 lengths = Vec3::Zero();      ///< box, along x, y, z [m]
-  std::filesystem::path mesh_file;  ///< Gmsh .msh, relative to the case file's folder
+  std::filesystem::path mesh_file;  ///< Gmsh .msh, absolute; written relative to the case file's folder
   double mesh_scale = 1.0;          ///< metres per unit of mesh_file
+  bool operator==(const ParticleConfig&) const = default;
 };
 
 struct MeshConfig {
@@ -25,6 +26,7 @@ struct MeshConfig {
   double contact_extent = 0.0;        ///< radius of the refined region [m]
   std::int64_t seed = 0;              ///< 0 = gmsh's own mesh; others rotate or jitter it
   double perturbation = 0.0;          ///< random displacement of interior nodes over the local edge length [-]
+  bool operator==(const MeshConfig&) const = default;
 };
 
 struct MaterialConfig {
@@ -34,6 +36,7 @@ struct MaterialConfig {
   double density = 0.0;          ///< envelope [kg/m3]
   double viscous_ratio = 0.0;    ///< stiffness of the viscoelastic branch over the long-term one [-]; 0 = elastic
   double relaxation_time = 0.0;  ///< of that branch [s]
+  bool operator==(const MaterialConfig&) const = default;
 };
 
 /// Friction between the faces of a softening crack, before full failure.
@@ -47,8 +50,8 @@ enum class Insertion { None, Extrinsic };
 struct FractureConfig {
   Insertion insertion = Insertion::Extrinsic;
   double strength = 0.0;              ///< sigma_c [Pa]
-  double fracture_energy = 0.0;       ///< mode I G_c [J/m2]; from toughness when that is given
-  double toughness = 0.0;             ///< K_IC [Pa m^1/2]
+  double fracture_energy = 0.0;       ///< mode I G_c [J/m2]; K_IC^2 (1 - nu^2)/E when toughness is given
+  double toughness = 0.0;             ///< K_IC [Pa m^1/2] as given; 0 when fracture_energy was given instead
   double mode_ii_ratio = 1.0;         ///< mode II over mode I fracture energy [-]
   double shear_strength_ratio = 1.5;  ///< beta: cohesion over tensile strength [-]
   double internal_friction = 0.8;     ///< mu_i of the criterion and of unbroken facets [-]
@@ -58,6 +61,7 @@ struct FractureConfig {
   double weibull_reference_volume = 0.0;  ///< [m3]; strength holds for this volume
   std::int64_t weibull_seed = 1;
   bool allow_unresolved = false;  ///< run although the sanity card refuses the mesh
+  bool operator==(const FractureConfig&) const = default;
 };
 
 struct ImpactConfig {
@@ -66,6 +70,7 @@ struct ImpactConfig {
   double azimuth = 0.0;        ///< of the tangential velocity, from x towards y [rad]
   Vec3 spin = Vec3::Zero();    ///< angular velocity at the start [rad/s]
   double wall_friction = 0.0;  ///< [-]
+  bool operator==(const ImpactConfig&) const = default;
 };
 
 struct TimeConfig {
@@ -74,6 +79,7 @@ struct TimeConfig {
   int threads = 0;                 ///< 0 = all processors
   int insertion_interval = 4;      ///< steps between two checks of the insertion criterion
   std::int64_t seed = 1;           ///< of everything random without a seed of its own
+  bool operator==(const TimeConfig&) const = default;
 };
 
 struct OutputConfig {
@@ -81,6 +87,7 @@ struct OutputConfig {
   std::optional<double> history_interval;  ///< simulated time between rows of history.csv [s]; absent = 500 rows
   double checkpoint_interval = 60.0;       ///< wall-clock time between checkpoints [s]; 0 = none
   bool picture = true;
+  bool operator==(const OutputConfig&) const = default;
 };
 
 struct RunConfig {
@@ -91,6 +98,7 @@ struct RunConfig {
   ImpactConfig impact;
   TimeConfig run;
   OutputConfig output;
+  bool operator==(const RunConfig&) const = default;
 };
 
 }  // namespace knap

@@ -1,0 +1,48 @@
+#pragma once
+// A case as written: sections, keys and values with their places, before anything is known about their meaning. The
+// only file of the module that knows TOML is case_document.cpp.
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace knap {
+
+/// A TOML value.
+struct RawValue {
+  struct Other {
+    std::string type;  ///< "a table", "a date or time"
+  };
+  std::variant<bool, std::int64_t, double, std::string, std::vector<RawValue>, Other> data;
+};
+
+/// The value as it could stand in a case file, on one line, shortened when long.
+std::string as_text(const RawValue& value);
+
+/// One `key = value`.
+struct Entry {
+  std::string section;  ///< "" = outside any section
+  std::string key;
+  RawValue value;
+  std::string place;  ///< "case.toml:12:9" or "command line --set impact.speed=3"
+  bool from_command_line = false;
+};
+
+struct CaseDocument {
+  std::string file;                             ///< as the user named it
+  std::vector<Entry> entries;                   ///< in the order of the file
+  std::map<std::string, std::string> sections;  ///< name -> place of its header
+};
+
+/// Parses a case file's text; `file` is only named in messages. Throws InputError.
+CaseDocument parse_document(std::string_view text, const std::string& file);
+
+/// The value that `text` is in TOML; anything else is a string, so that words and quantities need no quotes.
+RawValue parse_loose_value(std::string_view text);
+
+/// Splits "section.key=value" into an entry. Throws InputError when it has another form.
+Entry parse_override(const std::string& override_text);
+
+}  // namespace knap
