@@ -19,7 +19,8 @@ struct NeoHookean {
   double volumetric_slope(double J) const { return (lambda + mu) * (J - 1.0) - mu; }
 };
 
-/// Below this volume ratio the Cauchy stress divides by it instead of by J: bounded where an element collapses.
+/// The shear part of the Cauchy stress divides by max(|J|, this): bounded where an element collapses, and an inverted
+/// one is in compression across the inverted direction, so it never looks like tension to a fracture criterion.
 inline constexpr double smallest_volume_ratio = 0.1;
 
 /// Cofactor matrix, J F^-T, without dividing by J.
@@ -40,10 +41,11 @@ inline Mat3 first_piola(const NeoHookean& law, const Mat3& F) {
   return law.mu * F + law.volumetric_slope(F.determinant()) * cofactor(F);
 }
 
-/// Cauchy stress P F^T / J [Pa], J in the shear part bounded below by smallest_volume_ratio.
+/// Cauchy stress P F^T / J [Pa], guarded as smallest_volume_ratio says.
 inline Mat3 cauchy_stress(const NeoHookean& law, const Mat3& F) {
   const double J = F.determinant();
-  return law.mu / std::max(J, smallest_volume_ratio) * F * F.transpose() + law.volumetric_slope(J) * Mat3::Identity();
+  return law.mu / std::max(std::abs(J), smallest_volume_ratio) * F * F.transpose() +
+         law.volumetric_slope(J) * Mat3::Identity();
 }
 
 }  // namespace knap
