@@ -1,0 +1,85 @@
+// Speed of the bulk sweeps: tets per second by mesh size, instruction set and threads. The counters are those of the
+// best sweep, which a busy machine disturbs less than the mean; with more threads than idle cores set
+// OMP_WAIT_POLICY=passive.
+//   kernel_bench --benchmark_filter=forces/AVX3
+#include <benchmark/benchmark.h>
+
+#include <chrono>
+#include <memory>
+
+#include "core/parallel.hpp"
+#include "fem/elastic_force.hpp"
+#include "tests/fem/grid_mesh.hpp"
+
+namespace {
+
+using namespace knap;
+
+struct Body {
+  std::vector<Vec4> x, f;
+  ElasticForce elastic;
+};
+
+// A cube of about the wanted number of tets, slightly compressed; kept for the next benchmark of the same size.
+Body& body(Index num_tets, bool viscous) {
+  static std::pair<Index, bool> last{0, false};
+  static std::unique_ptr<Body> kept;
+  if (kept && last == std::pair{num_tets, viscous}) return *kept;
+  kept.reset();
+  const TetMesh mesh = grid_mesh(static_cast<Index>(std::lround(std::cbrt(num_tets / 6.0))), 2e-3, 0.15);
+  kept = std::make_unique<Body>();
+  for (const Vec3& v : mesh.vertices) kept->x.push_back(padded(0.999 * v));
+  kept->f.resize(kept->x.size());
+  const ViscoelasticBranch branch = viscous ? ViscoelasticBranch{0.3, 2e-6} : ViscoelasticBranch{};
+  kept->elastic = make_elastic_force(make_topology(mesh), mesh.vertices, make_material(15e9, 0.2, 2000.0, branch));
+  last = {num_tets, viscous};
+  return *kept;
+}
+
+enum class Sweep { Forces, ViscousForces, Stress, Energy };
+
+void sweep_once(Body& b, Sweep sweep) {
+  if (sweep == Sweep::Stress)
+    update_stress(b.elastic, b.x);
+  else if (sweep == Sweep::Energy)
+    benchmark::DoNotOptimize(strain_energy(b.elastic, b.x));
+  else
+    update_elastic_forces(b.elastic, b.x, b.f, 3e-9);
+  benchmark::ClobberMemory();
+}
+
+void run(benchmark::State& state, Sweep sweep, const std::string& target, int threads) {
+  Body& b = body(static_cast<Index>(state.range(0)), sweep == Sweep::ViscousForces);
+  use_kernel_target(target);
+  set_num_threads(threads);
+  double best = 1e30;
+  for (auto _ : state) {
+    const auto start = std::chrono::steady_clock::now();
+    sweep_once(b, sweep);
+    best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  const auto tets = static_cast<double>(b.elastic.stress.size());
+  state.counters["best_Mtets_per_s"] = 1e-6 * tets / best;
+  state.counters["best_ns_per_tet"] = 1e9 * best / tets;
+  use_kernel_target("");
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::pair<std::string, Sweep>> sweeps{{"forces", Sweep::Forces},
+                                                          {"viscous_forces", Sweep::ViscousForces},
+                                                          {"stress", Sweep::Stress},
+                                                          {"energy", Sweep::Energy}};
+  for (const auto& [name, sweep] : sweeps)
+    for (const Index size : {10'000, 46'000, 140'000, 500'000, 2'000'000})
+      for (const std::string& target : kernel_targets())
+        for (const int threads : {1, 2})
+          benchmark::RegisterBenchmark((name + "/" + target + "/threads:" + std::to_string(threads)).c_str(), run,
+                                       sweep, target, threads)
+              ->Arg(size)
+              ->UseRealTime()
+              ->Unit(benchmark::kMicrosecond);
+  benchmark::Initialize(&argc, argv);
+  benchmark::RunSpecifiedBenchmarks();
+}
