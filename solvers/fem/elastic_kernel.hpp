@@ -11,6 +11,7 @@
 // edge components, B(0) = D0^T D0 and dB/dt = (D^T D - B)/tau.
 #include <string>
 
+#include "core/tet_stress.hpp"
 #include "fem/element_blocks.hpp"
 
 namespace knap {
@@ -27,13 +28,6 @@ struct alignas(64) ElementGroup {
 /// State of the viscoelastic branch of a lane group.
 struct alignas(64) BranchGroup {
   SymmetricLanes relaxed_metric{};  ///< B [m2], at half steps
-};
-
-/// Cauchy stress of a tet and what bounds its tractions; one cache line.
-struct alignas(64) TetStress {
-  double xx = 0.0, yy = 0.0, zz = 0.0, yz = 0.0, zx = 0.0, xy = 0.0;  ///< [Pa]
-  double norm = 0.0;          ///< Frobenius norm, at least the traction on any plane [Pa]
-  double volume_ratio = 1.0;  ///< J [-], <= 0 when inverted
 };
 
 /// The numbers of neo-Hookean law and branch, as the kernels use them.

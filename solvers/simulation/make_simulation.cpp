@@ -39,15 +39,15 @@ void give_strengths(ReferenceState& reference, const Topology& topology, const F
 
 NodalState nodes_at_start(const SimulationOptions& options, const ReferenceState& reference, const Topology& topology) {
   NodalState nodes;
-  visit_nodal_fields(nodes, [&](const char*, auto& field) {
-    field.assign(reference.vertices.size(), typename std::decay_t<decltype(field)>::value_type());
-  });
+  const std::size_t count = reference.vertices.size();
+  nodes.x.assign(count, Vec4::Zero());
+  nodes.f = nodes.v = nodes.x;
+  nodes.mass.assign(count, 0.0);
   Vec3 first = Vec3::Zero();
   double mass = 0.0;
   for (Index i = 0; i < nodes.size(); ++i) {
     nodes.mass[at(i)] = corner_sum(topology.corners_of_vertex[i], reference.corner_mass);
     nodes.x[at(i)] = padded(reference.vertices[at(i)]);
-    nodes.f[at(i)].setZero();
     first += nodes.mass[at(i)] * reference.vertices[at(i)];
     mass += nodes.mass[at(i)];
   }
