@@ -13,9 +13,9 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <regex>
 #include <thread>
 
-#include "core/errors.hpp"
 #include "io/posix_file.hpp"
 
 namespace knap {
@@ -72,13 +72,13 @@ bool read_pipes(const Pipe& output, std::string& output_text, const Pipe& messag
   return true;
 }
 
-/// The last words on one line.
+/// The last words, on one line and without colours.
 std::string end_of(std::string text) {
-  constexpr std::size_t enough = 400;
+  constexpr std::size_t enough = 600;
   if (text.size() > enough) text.erase(0, text.size() - enough);
-  for (char& c : text) {
-    if (c == '\n' || c == '\r') c = ' ';
-  }
+  text = std::regex_replace(text, std::regex("\x1b\\[[0-9;]*m"), "");
+  text = std::regex_replace(text, std::regex("\\s+"), " ");
+  if (text.ends_with(' ')) text.pop_back();
   return text.empty() ? "" : fmt::format(": {}", text);
 }
 
