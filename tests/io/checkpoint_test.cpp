@@ -40,7 +40,7 @@ Checkpoint sample() {
   checkpoint.doubles["none"] = {};
   checkpoint.ints["tet_nodes"] = {0, -1, std::numeric_limits<std::int32_t>::min()};
   checkpoint.bytes["facet_state"] = {0, 255, 7};
-  checkpoint.texts["case"] = std::string("[case]\nname = \"\xC2\xB5 \0\"\n\0", 24);
+  checkpoint.texts["case"] = std::string("[case]\nname = \"\xC2\xB5 \0\"\n\0", 22);
   checkpoint.texts["empty"] = "";
   return checkpoint;
 }
