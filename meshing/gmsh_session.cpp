@@ -22,7 +22,10 @@ namespace {
 const std::vector<std::pair<std::string, double>> mesh_options{
     {"General.Terminal", 0},
     {"General.NumThreads", 1},
-    {"General.AbortOnError", 2},
+    {"General.AbortOnError", 0},  // a throw inside gmsh's OpenMP loops would end the process: see generate_mesh
+    {"Mesh.MaxNumThreads1D", 1},
+    {"Mesh.MaxNumThreads2D", 1},
+    {"Mesh.MaxNumThreads3D", 1},
     {"Mesh.Algorithm", 6},
     {"Mesh.Algorithm3D", 1},
     {"Mesh.Optimize", 1},
@@ -103,6 +106,13 @@ void with_gmsh(const std::function<void()>& work) {
   } catch (const std::string& message) {  // what gmsh 4.8 throws
     throw RuntimeFailure(fmt::format("gmsh failed: {}", message));
   }
+}
+
+void generate_mesh(int dimension) {
+  gmsh::model::mesh::generate(dimension);
+  std::string message;  // cleared by gmsh when it starts
+  gmsh::logger::getLastError(message);
+  if (!message.empty()) throw RuntimeFailure(fmt::format("gmsh failed: {}", message));
 }
 
 }  // namespace knap

@@ -31,10 +31,10 @@ int add_wave(int ball, const TetrahedraliseOptions& options) {
   const Vec3 direction = random_rotation(random).col(0);
   const Vec3 k = direction * (2.0 * std::numbers::pi / (8.0 * options.element_size));
   const double phase = 2.0 * std::numbers::pi * random.uniform();
-  const int wave = field::add("MathEval");
+  const int wave = field::add("MathEval");  // its parser knows no exponents and no two signs in a row
   field::setString(wave, "F",
-                   fmt::format("F{} * (1 + 0.03 * Sin({:.17g} * x + {:.17g} * y + {:.17g} * z + {:.17g}))", ball, k.x(),
-                               k.y(), k.z(), phase));
+                   fmt::format("F{} * (1 + 0.03 * Sin(({:.12f}) * x + ({:.12f}) * y + ({:.12f}) * z + {:.12f}))", ball,
+                               k.x(), k.y(), k.z(), phase));
   return wave;
 }
 

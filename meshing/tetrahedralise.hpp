@@ -13,6 +13,10 @@ struct TetrahedraliseOptions {
   double perturbation = 0.0;          ///< random displacement of interior vertices over the local mean edge, 0 to 0.3
 };
 
+/// Number of tets to expect, within about 15 %: 10.9 times the integral of size^-3 over the volume, half of the refined
+/// ball taken to lie in the particle. Without a contact: 10.9 volume / element_size^3.
+double expected_num_tets(const Shape& shape, const TetrahedraliseOptions& options);
+
 /// The mesh of a shape, Morton-ordered; the same bits for the same arguments. Surface vertices lie on the shape, so a
 /// convex curved shape loses volume to its chords: a relative 0.35 (element_size / diameter)^2 to 1.5 times that.
 /// Throws InputError for sizes that make no sense, RuntimeFailure when gmsh fails.
