@@ -57,6 +57,7 @@ struct Simulation {
   CrackState cracks;
   ContactState contact;
   EnergyLedger ledger;
+  EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning
   RunTotals totals;
   Clock clock;
   PhaseTimes phase_times;

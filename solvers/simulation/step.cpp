@@ -43,6 +43,9 @@ void scale_masses(Simulation& s, std::span<const Index> split_vertices) {
       if (missing <= 0.0) continue;
       s.nodes.mass[at(node)] = needed;
       s.totals.added_mass += missing;
+      const Vec3 added = missing * xyz(s.nodes.v[at(node)]);
+      s.totals.added_linear += added;
+      s.totals.added_angular += Vec3(xyz(s.nodes.x[at(node)])).cross(added);
       s.totals.mass_scaling_energy += 0.5 * missing * s.nodes.v[at(node)].squaredNorm();
     }
 }
@@ -160,7 +163,9 @@ void balance_energies(Simulation& s) {
   ledger[EnergyTerm::ToolImpact] = s.totals.wall.impact_loss;
   ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
   ledger[EnergyTerm::MassScaling] = -s.totals.mass_scaling_energy;
-  ledger.max_closure_error = std::max(ledger.max_closure_error, ledger.closure_error());
+  const double error = ledger.closure_error();
+  ledger.max_closure_error = std::max(ledger.max_closure_error, error);
+  if (error <= energy_warning) s.last_good_ledger = ledger;
 }
 
 StepStatus step(Simulation& s) {

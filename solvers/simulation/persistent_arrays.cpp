@@ -1,0 +1,292 @@
+// One list of all persistent state. Arrays of structs are stored a column a field, by lists of their members, so that
+// no padding byte gets into files or hashes.
+#include "simulation/persistent_arrays.hpp"
+
+#include <fmt/format.h>
+
+#include <numeric>
+#include <tuple>
+
+#include "core/errors.hpp"
+#include "core/hash.hpp"
+
+namespace knap {
+namespace {
+
+template <class Struct, class Member>
+struct Field {
+  const char* name;
+  Member Struct::*member;
+};
+template <class Struct, class Member>
+Field(const char*, Member Struct::*) -> Field<Struct, Member>;
+
+constexpr auto fields(const CrackRecord*) {
+  return std::tuple{Field{"impulse", &CrackRecord::impulse},
+                    Field{"secant", &CrackRecord::secant},
+                    Field{"tributary_area", &CrackRecord::tributary_area},
+                    Field{"s0", &CrackRecord::s0},
+                    Field{"delta_c", &CrackRecord::delta_c},
+                    Field{"d_max", &CrackRecord::d_max},
+                    Field{"dissipated", &CrackRecord::dissipated},
+                    Field{"dissipated_shear", &CrackRecord::dissipated_shear},
+                    Field{"face", &CrackRecord::face},
+                    Field{"node_a", &CrackRecord::node_a},
+                    Field{"node_b", &CrackRecord::node_b},
+                    Field{"corner", &CrackRecord::corner},
+                    Field{"regime", &CrackRecord::regime}};
+}
+constexpr auto fields(const CrackFace*) {
+  return std::tuple{Field{"facet", &CrackFace::facet},   Field{"nodes", &CrackFace::nodes},
+                    Field{"normal", &CrackFace::normal}, Field{"couple", &CrackFace::couple},
+                    Field{"centre", &CrackFace::centre}, Field{"rotation", &CrackFace::rotation},
+                    Field{"area", &CrackFace::area},     Field{"failed", &CrackFace::failed}};
+}
+constexpr auto fields(const CrackLosses*) {
+  return std::tuple{Field{"cohesive", &CrackLosses::cohesive}, Field{"closure", &CrackLosses::closure},
+                    Field{"friction", &CrackLosses::friction}, Field{"cohesive_shear", &CrackLosses::cohesive_shear}};
+}
+constexpr auto fields(const ContactPoint*) {
+  return std::tuple{Field{"nodes", &ContactPoint::nodes}, Field{"key", &ContactPoint::key},
+                    Field{"fragment", &ContactPoint::fragment}};
+}
+constexpr auto fields(const ContactCandidate*) {
+  return std::tuple{Field{"point", &ContactCandidate::point}, Field{"tet", &ContactCandidate::tet},
+                    Field{"separation", &ContactCandidate::separation}};
+}
+constexpr auto fields(const Contact*) {
+  return std::tuple{Field{"point_key", &Contact::point_key}, Field{"tet", &Contact::tet},
+                    Field{"face", &Contact::face},           Field{"impulse", &Contact::impulse},
+                    Field{"normal", &Contact::normal},       Field{"nodes", &Contact::nodes},
+                    Field{"weights", &Contact::weights},     Field{"depth", &Contact::depth}};
+}
+constexpr auto fields(const BranchState*) {
+  return std::tuple{Field{"decay", &BranchState::decay}, Field{"stored", &BranchState::stored},
+                    Field{"pending", &BranchState::pending}, Field{"dissipated", &BranchState::dissipated}};
+}
+constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
+constexpr auto fields(const ToolAction*) {
+  return std::tuple{Field{"impulse", &ToolAction::impulse}, Field{"moment", &ToolAction::moment},
+                    Field{"friction_loss", &ToolAction::friction_loss}, Field{"impact_loss", &ToolAction::impact_loss},
+                    Field{"contacts", &ToolAction::contacts}};
+}
+constexpr auto fields(const RunTotals*) {
+  return std::tuple{Field{"mass_scaling_energy", &RunTotals::mass_scaling_energy},
+                    Field{"added_mass", &RunTotals::added_mass},
+                    Field{"added_linear", &RunTotals::added_linear},
+                    Field{"added_angular", &RunTotals::added_angular},
+                    Field{"max_wall_force", &RunTotals::max_wall_force},
+                    Field{"last_wall_step", &RunTotals::last_wall_step},
+                    Field{"first_wall_step", &RunTotals::first_wall_step},
+                    Field{"last_contact_step", &RunTotals::last_contact_step},
+                    Field{"inserted_facets", &RunTotals::inserted_facets}};
+}
+constexpr auto fields(const EnergyLedger*) {
+  return std::tuple{Field{"value", &EnergyLedger::value}, Field{"initial", &EnergyLedger::initial},
+                    Field{"reference", &EnergyLedger::reference},
+                    Field{"max_closure_error", &EnergyLedger::max_closure_error}};
+}
+
+/// How a member is laid out: `count` scalars of type Scalar.
+template <class T>
+struct Layout {
+  using Scalar = T;
+  static constexpr std::size_t count = 1;
+};
+template <class T, std::size_t n>
+struct Layout<std::array<T, n>> {
+  using Scalar = typename Layout<T>::Scalar;
+  static constexpr std::size_t count = n * Layout<T>::count;
+};
+template <int n>
+struct Layout<Eigen::Matrix<double, n, 1>> {
+  using Scalar = double;
+  static constexpr std::size_t count = n;
+};
+
+template <class Member>
+auto* scalars(Member& member) {
+  using Scalar = typename Layout<std::remove_const_t<Member>>::Scalar;
+  using Pointer = std::conditional_t<std::is_const_v<Member>, const Scalar*, Scalar*>;
+  static_assert(sizeof(Member) == sizeof(Scalar) * Layout<std::remove_const_t<Member>>::count);
+  return reinterpret_cast<Pointer>(&member);
+}
+
+/// Where columns of this scalar type go: floating point and 64-bit counts as doubles (counts stay below 2^53).
+template <class Scalar>
+constexpr bool stored_as_double = std::is_floating_point_v<Scalar> || sizeof(Scalar) == 8;
+
+struct Writer {
+  Checkpoint& checkpoint;
+
+  template <class Scalar>
+  void column(const std::string& name, std::size_t size, const auto& value) {
+    if constexpr (stored_as_double<Scalar>) {
+      auto& out = checkpoint.doubles[name];
+      for (std::size_t i = 0; i < size; ++i) out.push_back(static_cast<double>(value(i)));
+    } else if constexpr (sizeof(Scalar) == 4) {
+      auto& out = checkpoint.ints[name];
+      for (std::size_t i = 0; i < size; ++i) out.push_back(static_cast<std::int32_t>(value(i)));
+    } else {
+      auto& out = checkpoint.bytes[name];
+      for (std::size_t i = 0; i < size; ++i) out.push_back(static_cast<std::uint8_t>(value(i)));
+    }
+  }
+  template <class T>
+  void plain(const std::string& name, const std::vector<T>& values) {
+    using L = Layout<T>;
+    column<typename L::Scalar>(name, values.size() * L::count,
+                               [&](std::size_t i) { return scalars(values[i / L::count])[i % L::count]; });
+  }
+  template <class Struct>
+  void structs(const std::string& name, const std::vector<Struct>& values) {
+    const auto one = [&](const auto& field) {
+      using L = Layout<std::remove_cvref_t<decltype(values[0].*field.member)>>;
+      column<typename L::Scalar>(name + "." + field.name, values.size() * L::count, [&](std::size_t i) {
+        return scalars(values[i / L::count].*field.member)[i % L::count];
+      });
+    };
+    std::apply([&](const auto&... field) { (one(field), ...); }, fields(static_cast<const Struct*>(nullptr)));
+  }
+};
+
+struct Reader {
+  const Checkpoint& checkpoint;
+
+  template <class Scalar>
+  const auto& source(const std::string& name) const {
+    const auto find = [&](const auto& map) -> const auto& {
+      const auto found = map.find(name);
+      if (found == map.end()) throw InputError(fmt::format("checkpoint: no array '{}'", name));
+      return found->second;
+    };
+    if constexpr (stored_as_double<Scalar>)
+      return find(checkpoint.doubles);
+    else if constexpr (sizeof(Scalar) == 4)
+      return find(checkpoint.ints);
+    else
+      return find(checkpoint.bytes);
+  }
+  template <class T>
+  void plain(const std::string& name, std::vector<T>& values) const {
+    using L = Layout<T>;
+    const auto& in = source<typename L::Scalar>(name);
+    values.resize(in.size() / L::count);
+    for (std::size_t i = 0; i < values.size() * L::count; ++i)
+      scalars(values[i / L::count])[i % L::count] = static_cast<typename L::Scalar>(in[i]);
+  }
+  template <class Struct>
+  void structs(const std::string& name, std::vector<Struct>& values) const {
+    const auto one = [&](const auto& field) {
+      using L = Layout<std::remove_cvref_t<decltype(values[0].*field.member)>>;
+      const auto& in = source<typename L::Scalar>(name + "." + field.name);
+      values.resize(in.size() / L::count);
+      for (std::size_t i = 0; i < values.size() * L::count; ++i)
+        scalars(values[i / L::count].*field.member)[i % L::count] = static_cast<typename L::Scalar>(in[i]);
+    };
+    std::apply([&](const auto&... field) { (one(field), ...); }, fields(static_cast<const Struct*>(nullptr)));
+  }
+};
+
+template <class Visitor, class Struct>
+void visit_single(Visitor& visit, const std::string& name, Struct& value) {
+  std::vector<std::remove_const_t<Struct>> one{value};
+  visit.structs(name, one);
+  if constexpr (!std::is_const_v<Struct>) value = one.at(0);
+}
+
+/// The list. `records` are all crack records in the order of the vertices.
+template <class Visitor, class Run, class Records>
+void visit_persistent(Visitor visit, Run& s, Records& records) {
+  visit_nodal_fields(s.nodes, [&](const char* name, auto& field) { visit.plain(name, field); });
+  visit.plain("topology.tet_nodes", s.topology.tet_nodes);
+  visit.plain("topology.facet_state", s.topology.facet_state);
+  visit.plain("topology.vertex_of_node", s.topology.vertex_of_node);
+  visit.structs("cracks.records", records);
+  visit.structs("cracks.faces", s.cracks.faces);
+  visit.structs("cracks.losses", s.cracks.losses_of_vertex);
+  visit.plain("cracks.vertices", s.cracks.vertices);
+  visit.plain("contact.fragment_of_tet", s.contact.fragment_of_tet);
+  visit.plain("contact.x_at_rebuild", s.contact.x_at_rebuild);
+  visit.plain("contact.free_faces", s.contact.free_faces);
+  visit.structs("contact.points", s.contact.points);
+  visit.structs("contact.candidates", s.contact.candidates);
+  visit.plain("contact.watched_nodes", s.contact.watched_nodes);
+  visit.structs("contact.contacts", s.contact.contacts);
+  visit.plain("branch.groups", s.elastic.branch.groups);
+  visit_single(visit, "branch", s.elastic.branch);
+  visit_single(visit, "clock", s.clock);
+  visit_single(visit, "totals", s.totals);
+  visit_single(visit, "wall", s.totals.wall);
+  visit_single(visit, "ledger", s.ledger);
+  visit_single(visit, "last_good_ledger", s.last_good_ledger);
+}
+
+std::string mesh_hash(const Simulation& s) {
+  StateHash hash;
+  for (const Vec3& x : s.reference.vertices) hash.add_bytes(x.data(), 3 * sizeof(double));
+  hash.add(s.topology.tet_vertices);
+  return hash.hex();
+}
+
+}  // namespace
+
+Checkpoint make_checkpoint(const Simulation& s) {
+  Checkpoint checkpoint;
+  std::vector<CrackRecord> records;
+  std::vector<std::int32_t> counts;
+  for (const auto& part : s.cracks.records_of_vertex) {
+    counts.push_back(to_index(part.size()));
+    records.insert(records.end(), part.begin(), part.end());
+  }
+  visit_persistent(Writer{checkpoint}, s, records);
+  checkpoint.ints["cracks.records_of_vertex"] = counts;
+  checkpoint.doubles["scalars"] = {s.cracks.cracked_area, static_cast<double>(s.cracks.last_damage_step),
+                                   s.contact.dissipated, static_cast<double>(s.contact.fragments)};
+  checkpoint.texts["mesh"] = mesh_hash(s);
+  return checkpoint;
+}
+
+void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
+  const auto mesh = checkpoint.texts.find("mesh");
+  if (mesh == checkpoint.texts.end() || mesh->second != mesh_hash(s))
+    throw InputError("checkpoint: it was taken on another mesh; resume with the case it belongs to");
+  std::vector<CrackRecord> records;
+  const Reader reader{checkpoint};
+  visit_persistent(reader, s, records);
+  std::vector<std::int32_t> counts;
+  reader.plain("cracks.records_of_vertex", counts);
+  auto next = records.begin();
+  for (std::size_t v = 0; v < counts.size(); ++v) {
+    s.cracks.records_of_vertex[v].assign(next, next + counts[v]);
+    next += counts[v];
+  }
+  std::vector<double> scalars;
+  reader.plain("scalars", scalars);
+  s.cracks.cracked_area = scalars.at(0);
+  s.cracks.last_damage_step = static_cast<std::int64_t>(scalars.at(1));
+  s.contact.dissipated = scalars.at(2);
+  s.contact.fragments = static_cast<Index>(scalars.at(3));
+  for (Index slot = 0; slot < to_index(s.cracks.faces.size()); ++slot)
+    s.cracks.face_of_facet[at(s.cracks.faces[at(slot)].facet)] = slot;
+  std::vector<Index> all_tets(at(s.topology.num_tets()));
+  std::iota(all_tets.begin(), all_tets.end(), 0);
+  refresh_elastic_force(s.elastic, s.topology, all_tets);
+}
+
+std::string state_hash(const Simulation& s) {
+  const Checkpoint checkpoint = make_checkpoint(s);
+  StateHash hash;
+  const auto add_all = [&hash](const auto& arrays) {
+    for (const auto& [name, values] : arrays) {
+      hash.add_bytes(name.data(), name.size());
+      hash.add(values);
+    }
+  };
+  add_all(checkpoint.doubles);
+  add_all(checkpoint.ints);
+  add_all(checkpoint.bytes);
+  return hash.hex();
+}
+
+}  // namespace knap
