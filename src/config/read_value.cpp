@@ -115,7 +115,7 @@ ReadValue read_file(const Key& key, const RawValue& raw, const std::filesystem::
   const auto* text = std::get_if<std::string>(&raw.data);
   if (!text || text->empty()) return {{}, type_advice(key)};
   const std::filesystem::path path = (folder / *text).lexically_normal();
-  if (!is_utf8_text(path.string()) || path.string().size() > 4000) return {{}, "is not a usable path"};
+  if (!is_plain_text(path.string()) || path.string().size() > longest_path) return {{}, "is not a usable path"};
   std::error_code error;
   const auto status = std::filesystem::status(path, error);
   if (!std::filesystem::exists(status)) return {{}, fmt::format("there is no file {}", path.string())};

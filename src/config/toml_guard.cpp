@@ -39,6 +39,16 @@ std::string not_text(std::string_view text) {
   return "";
 }
 
+std::string long_line(std::string_view text) {
+  for (std::size_t start = 0; start < text.size();) {
+    const std::size_t end = std::min(text.find('\n', start), text.size());
+    if (end - start > longest_line)
+      return refusal(text, start, fmt::format("more than {} bytes in a line", longest_line));
+    start = end + 1;
+  }
+  return "";
+}
+
 // One past the end of the string literal that starts at `at`.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
@@ -113,11 +123,15 @@ std::string bad_number(std::string_view bare) {
 std::string reason_to_refuse(std::string_view text) {
   if (text.size() > largest_case_file) return fmt::format("1: more than {} KiB", largest_case_file / 1024);
   if (const std::string reason = not_text(text); !reason.empty()) return reason;
+  if (const std::string reason = long_line(text); !reason.empty()) return reason;
   const std::string bare = skeleton(text);
   if (const std::string reason = bad_nesting(bare); !reason.empty()) return reason;
   return bad_number(bare);
 }
 
-bool is_utf8_text(std::string_view text) { return not_text(text).empty(); }
+bool is_plain_text(std::string_view text) {
+  const auto is_control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7F; };
+  return not_text(text).empty() && std::none_of(text.begin(), text.end(), is_control);
+}
 
 }  // namespace knap

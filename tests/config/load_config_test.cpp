@@ -122,10 +122,11 @@ TEST(LoadConfig, TheMeshFileIsFoundFromTheCaseFolder) {
   EXPECT_EQ(c.mesh.element_size, 0.0);
   EXPECT_EQ(config_of(effective_toml(c)), c);
   const std::vector<std::string> missing{"particle.mesh_file=nothing.msh"}, directory{"particle.mesh_file=meshes"},
-      size{"mesh.element_size=1 mm"};
+      size{"mesh.element_size=1 mm"}, control{"particle.mesh_file=\"a\\nb\""};
   EXPECT_THROW(load_config(folder / "case.toml", missing), InputError);
   EXPECT_THROW(load_config(folder / "case.toml", directory), InputError);
   EXPECT_THROW(load_config(folder / "case.toml", size), InputError);
+  EXPECT_THROW(load_config(folder / "case.toml", control), InputError);
   std::filesystem::remove_all(folder);
 }
 

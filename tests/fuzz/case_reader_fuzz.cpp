@@ -2,6 +2,7 @@
 // trip through effective.toml. Usage: case_reader_fuzz [SECONDS [SEED [keep]]]. The input that failed is written to
 // case_reader_fuzz_failure.toml; after a crash run again with `keep`, which writes each input before it is read.
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -23,8 +24,7 @@ using Random = std::mt19937_64;
 std::size_t below(Random& random, std::size_t n) { return n == 0 ? 0 : static_cast<std::size_t>(random() % n); }
 
 // Text that is likely to matter to a reader of numbers, units, strings and tables.
-std::vector<std::string> tokens() {
-  std::vector<std::string> all{"[",
+constexpr std::array fragments{"[",
                                "]",
                                "{",
                                "}",
@@ -81,14 +81,14 @@ std::vector<std::string> tokens() {
                                "1979-05-27",
                                "9223372036854775808",
                                "99999999999999999999",
-                               std::string(1, '\0'),
                                "\xff",
                                "\xc3",
                                "\xed\xa0\x80",
-                               "\xef\xbb\xbf",
-                               std::string(40, '['),
-                               std::string(300, '{'),
-                               std::string(2000, '[')};
+                               "\xef\xbb\xbf"};
+
+std::vector<std::string> tokens() {
+  std::vector<std::string> all(fragments.begin(), fragments.end());
+  all.insert(all.end(), {std::string(1, '\0'), std::string(40, '['), std::string(300, '{'), std::string(2000, '[')});
   for (const knap::Key& key : knap::schema()) {
     all.push_back(key.name);
     all.push_back(key.name + " = ");
