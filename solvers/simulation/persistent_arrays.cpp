@@ -104,6 +104,12 @@ struct Layout<Eigen::Matrix<double, n, 1>> {
   static constexpr std::size_t count = n;
 };
 
+template <>
+struct Layout<BranchGroup> {
+  using Scalar = double;
+  static constexpr std::size_t count = sizeof(BranchGroup) / sizeof(double);
+};
+
 template <class Member>
 auto* scalars(Member& member) {
   using Scalar = typename Layout<std::remove_const_t<Member>>::Scalar;
