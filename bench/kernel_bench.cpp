@@ -16,6 +16,7 @@ namespace {
 using namespace knap;
 
 struct Body {
+  Topology topology;
   std::vector<Vec4> x, f;
   ElasticForce elastic;
 };
@@ -31,12 +32,13 @@ Body& body(Index num_tets, bool viscous) {
   for (const Vec3& v : mesh.vertices) kept->x.push_back(padded(0.999 * v));
   kept->f.resize(kept->x.size());
   const ViscoelasticBranch branch = viscous ? ViscoelasticBranch{0.3, 2e-6} : ViscoelasticBranch{};
-  kept->elastic = make_elastic_force(make_topology(mesh), mesh.vertices, make_material(15e9, 0.2, 2000.0, branch));
+  kept->topology = make_topology(mesh);
+  kept->elastic = make_elastic_force(kept->topology, mesh.vertices, make_material(15e9, 0.2, 2000.0, branch));
   last = {num_tets, viscous};
   return *kept;
 }
 
-enum class Sweep { Forces, ViscousForces, Stress, Energy };
+enum class Sweep { Forces, ViscousForces, Stress, Energy, Refresh };
 
 // One thread is timed by its processor time, which other programs do not count in.
 double seconds(int threads) {
@@ -50,6 +52,8 @@ void sweep_once(Body& b, Sweep sweep) {
     update_stress(b.elastic, b.x);
   else if (sweep == Sweep::Energy)
     benchmark::DoNotOptimize(strain_energy(b.elastic, b.x));
+  else if (sweep == Sweep::Refresh)
+    refresh_elastic_force(b.elastic, b.topology, std::array{Index{100}, Index{4000}});
   else
     update_elastic_forces(b.elastic, b.x, b.f, 3e-9);
   benchmark::ClobberMemory();
@@ -77,7 +81,8 @@ int main(int argc, char** argv) {
   const std::vector<std::pair<std::string, Sweep>> sweeps{{"forces", Sweep::Forces},
                                                           {"viscous_forces", Sweep::ViscousForces},
                                                           {"stress", Sweep::Stress},
-                                                          {"energy", Sweep::Energy}};
+                                                          {"energy", Sweep::Energy},
+                                                          {"refresh", Sweep::Refresh}};
   for (const auto& [name, sweep] : sweeps)
     for (const Index size : {10'000, 46'000, 140'000, 500'000, 2'000'000})
       for (const std::string& target : kernel_targets())
