@@ -17,9 +17,9 @@ struct TetrahedraliseOptions {
 /// ball taken to lie in the particle. Without a contact: 10.9 volume / element_size^3.
 double expected_num_tets(const Shape& shape, const TetrahedraliseOptions& options);
 
-/// The mesh of a shape, Morton-ordered; the same bits for the same arguments. Surface vertices lie on the shape, so a
-/// convex curved shape loses volume to its chords: a relative 0.35 (element_size / diameter)^2 to 1.5 times that.
-/// Throws InputError for sizes that make no sense, RuntimeFailure when gmsh fails.
+/// The mesh of a shape, Morton-ordered; the same bits for the same arguments. Surface vertices lie on the shape to
+/// round-off, so curved shapes lose volume to their chords: a sphere 1.37 (element_size / diameter)^2 of it.
+/// Throws InputError for sizes that make no sense, RuntimeFailure when gmsh fails. One call at a time in a process.
 TetMesh tetrahedralise(const Shape& shape, const TetrahedraliseOptions& options);
 
 }  // namespace knap
