@@ -6,8 +6,8 @@ namespace knap {
 
 struct TetrahedraliseOptions {
   double element_size = 0.0;          ///< mean edge far from the contact point [m]
-  double contact_element_size = 0.0;  ///< mean edge within contact_extent of the contact point [m]; 0 = element_size
-  double contact_extent = 0.0;        ///< [m]; beyond it the size grows linearly over one more extent
+  double contact_element_size = 0.0;  ///< mean edge within contact_extent of contact_point [m]; 0 = not refined
+  double contact_extent = 0.0;        ///< [m]; beyond it the size grows linearly over one more; 0 = not refined
   Vec3 contact_point = Vec3::Zero();  ///< [m]
   std::int64_t seed = 0;              ///< 0 = the shape's standard orientation; others give other meshes
   double perturbation = 0.0;          ///< random displacement of interior vertices over the local mean edge, 0 to 0.3
