@@ -26,7 +26,7 @@ constexpr double interior_size_factor = 0.72;
 // step.
 constexpr double wanted_shape = 0.4;
 constexpr double worst_shape_allowed = 0.01;
-constexpr double most_tets = 2e7;  // some 20 GB in gmsh
+constexpr double most_tets = 2e7;  // some 10 GB in gmsh
 
 // Turns what gmsh holds into a mesh, numbered in the order of gmsh's lists.
 TetMesh collect_mesh() {

@@ -6,12 +6,34 @@ namespace knap {
 namespace {
 
 constexpr Index faces_per_block = 256;
-constexpr Index vertices_per_block = 64;
+// Nearly collinear nodes have next to no inertia about their line. This share of the mean inertia is added to it; what
+// the rotation then does not give back, it carries to the next.
+constexpr double inertia_regularisation = 0.02;
 
-void update_rotation(CrackFace& face, const NodalState& nodes) {
-  const Vec3 couple = face.couple[0] + face.couple[1] + face.couple[2];
-  face.rotation.setZero();
-  if (couple.squaredNorm() == 0.0) return;
+Mat3 inertia_about(const CrackFace& face, const NodalState& nodes, const Vec3& centre) {
+  double xx = 0.0, yy = 0.0, zz = 0.0, xy = 0.0, yz = 0.0, zx = 0.0;
+  for (const auto& pair : face.nodes)
+    for (const Index node : pair) {
+      const Vec3 r = xyz(nodes.x[at(node)]) - centre;
+      const Vec3 mr = nodes.mass[at(node)] * r;
+      xx += mr.x() * r.x();
+      yy += mr.y() * r.y();
+      zz += mr.z() * r.z();
+      xy += mr.x() * r.y();
+      yz += mr.y() * r.z();
+      zx += mr.z() * r.x();
+    }
+  Mat3 inertia;
+  inertia << yy + zz, -xy, -zx, -xy, zz + xx, -yz, -zx, -yz, xx + yy;
+  return inertia;
+}
+
+// Returns whether there is anything to give back.
+bool update_rotation(CrackFace& face, const NodalState& nodes) {
+  const Vec3 couple = face.couple[0] + face.couple[1] + face.couple[2] + face.carried_couple;
+  face.couple.fill(Vec3::Zero());
+  face.carried_couple = couple;
+  if (couple.isZero(0.0)) return false;
   double mass = 0.0;
   Vec3 first = Vec3::Zero();
   for (const auto& pair : face.nodes)
@@ -20,13 +42,15 @@ void update_rotation(CrackFace& face, const NodalState& nodes) {
       first += nodes.mass[at(node)] * xyz(nodes.x[at(node)]);
     }
   face.centre = first / mass;
-  Mat3 inertia = Mat3::Zero();
-  for (const auto& pair : face.nodes)
-    for (const Index node : pair) {
-      const Vec3 r = xyz(nodes.x[at(node)]) - face.centre;
-      inertia += nodes.mass[at(node)] * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
-    }
-  face.rotation = -inertia.ldlt().solve(couple);
+  const Mat3 inertia = inertia_about(face, nodes, face.centre);
+  const double shift = inertia_regularisation * inertia.trace() / 3.0;
+  const Mat3 regular = inertia + shift * Mat3::Identity();
+  const double determinant = regular.determinant();
+  if (!(determinant > 0.0)) return false;  // all six nodes in one point: keep the couple
+  const Vec3 a = regular.col(0), b = regular.col(1), c = regular.col(2);
+  face.rotation = -Vec3(b.cross(c).dot(couple), c.cross(a).dot(couple), a.cross(b).dot(couple)) / determinant;
+  face.carried_couple += inertia * face.rotation;
+  return true;
 }
 
 }  // namespace
@@ -39,36 +63,23 @@ void update_normal(CrackFace& face, std::span<const Vec4> x) {
   if (norm > 0.0) face.normal = area / norm;
 }
 
-void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState& nodes) {
+void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState& nodes, Index turn) {
   parallel_for(
       to_index(cracks.faces.size()),
       [&](Index slot) {
         CrackFace& face = cracks.faces[at(slot)];
         update_normal(face, nodes.x);
-        update_rotation(face, nodes);
+        face.rotates = (turn == all_turns || slot % num_turns == turn) && update_rotation(face, nodes);
         if (face.failed[0] && face.failed[1] && face.failed[2])
           topology.facet_state[at(face.facet)] = FacetState::Failed;
       },
       faces_per_block);
 }
 
-void restore_angular_momentum(const CrackState& cracks, NodalState& nodes) {
-  parallel_for(
-      to_index(cracks.vertices.size()),
-      [&](Index i) {
-        for (const CrackRecord& record : cracks.records_of_vertex[at(cracks.vertices[at(i)])]) {
-          const CrackFace& face = cracks.faces[at(record.face)];
-          if (face.rotation.squaredNorm() == 0.0) continue;
-          for (const Index node : {record.node_a, record.node_b})
-            xyz(nodes.v[at(node)]) += face.rotation.cross(xyz(nodes.x[at(node)]) - face.centre);
-        }
-      },
-      vertices_per_block);
-}
-
 Vec3 pending_angular_momentum(const CrackState& cracks) {
   Vec3 sum = Vec3::Zero();
-  for (const CrackFace& face : cracks.faces) sum += face.couple[0] + face.couple[1] + face.couple[2];
+  for (const CrackFace& face : cracks.faces)
+    sum += face.couple[0] + face.couple[1] + face.couple[2] + face.carried_couple;
   return sum;
 }
 

@@ -1,4 +1,8 @@
 #pragma once
+// Impulses on twin nodes that have slipped act at two different points and so change the angular momentum by jump x
+// impulse. Each face gives that back as a rigid rotation of its six nodes a few steps later, before the impulses of
+// that step are solved; until then it is known as pending. (Giving it back after the solve would break what was just
+// solved.)
 #include <span>
 
 #include "cohesive/cohesive_state.hpp"
@@ -9,15 +13,15 @@ namespace knap {
 /// Sets the unit normal of the mid-surface, minus to plus; kept when the mid-surface has collapsed.
 void update_normal(CrackFace& face, std::span<const Vec4> x);
 
-/// Once a step: normals of all faces, which of them have failed, and the rotation that gives back the angular momentum
-/// which last step's impulses on twin nodes at two different points took (per face sum of jump x impulse; I w = -C over
-/// its six nodes).
-void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState& nodes);
+/// The faces give back in so many turns, one a step; all_turns = all of them at once, before faces may end.
+inline constexpr Index num_turns = 4;
+inline constexpr Index all_turns = -1;
 
-/// Adds to the velocities the rotations that update_crack_faces found. Linear momentum is unchanged.
-void restore_angular_momentum(const CrackState& cracks, NodalState& nodes);
+/// Once a step: normals of all faces, which of them have failed, and for those whose turn it is the rotation that gives
+/// back the angular momentum they have taken (I w = -C over the six nodes).
+void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState& nodes, Index turn);
 
-/// Angular momentum still to be given back [kg m2/s]: what the last step's impulses took.
+/// Angular momentum still to be given back [kg m2/s], positions as after the step.
 Vec3 pending_angular_momentum(const CrackState& cracks);
 
 }  // namespace knap

@@ -9,11 +9,12 @@ namespace knap {
 struct HandOverOptions {
   double jump_everywhere = 0.3;        ///< at all three corners [h]
   double jump_somewhere = 0.6;         ///< at one corner [h]
+  double jump_within = 1.0;            ///< at all corners, even within one fragment: they do not meet any more [h]
   std::span<const double> facet_size;  ///< h = 1.5 (V_minus + V_plus)/A [m]
 };
 
-/// Hands over to the general contact every failed facet between two fragments whose faces have moved apart or along
-/// each other that far; its records end. Returns how many.
+/// Hands over to the general contact every failed facet whose faces have moved apart or along each other that far:
+/// marks the face as ended, to be dropped when the step is done. Returns how many.
 Index hand_over_faces(CrackState& cracks, Topology& topology, std::span<const Vec4> x,
                       std::span<const Index> fragment_of_tet, const HandOverOptions& options);
 

@@ -45,7 +45,7 @@ void sum_masses(const Topology& topology, NodalState& nodes, std::span<const Ind
 
 // The nodes of the records at a vertex follow its corners; records whose two sides have just come apart are activated.
 void refresh_records(CrackState& cracks, const Topology& topology, Index vertex, const InsertionOptions& options) {
-  for (CrackRecord& record : cracks.records_of_vertex[at(vertex)]) {
+  for (CrackRecord& record : cracks.records_of_vertex(vertex)) {
     CrackFace& face = cracks.faces[at(record.face)];
     const bool was_active = record.node_a != record.node_b;
     record.node_a = topology.facet_node(face.facet, record.corner, 0);
@@ -58,27 +58,39 @@ void refresh_records(CrackState& cracks, const Topology& topology, Index vertex,
   }
 }
 
-void add_face(CrackState& cracks, Topology& topology, const OverloadedFacet& overloaded,
-              const InsertionOptions& options) {
-  const Index facet = overloaded.facet;
-  const Index slot = to_index(cracks.faces.size());
-  topology.facet_state[at(facet)] = FacetState::Cohesive;
-  cracks.face_of_facet[at(facet)] = slot;
+CrackFace new_face(const Topology& topology, const NodalState& nodes, Index facet, double area) {
   CrackFace face;
   face.facet = facet;
-  face.area = options.facet_area[at(facet)];
-  cracks.cracked_area += face.area;
-  for (int k = 0; k < 3; ++k) {
-    CrackRecord record;
-    record.tributary_area = face.area / 3.0;
-    record.s0 = overloaded.effective;
-    record.delta_c = 2.0 * options.fracture_energy[at(facet)] / record.s0;
-    record.face = slot;
-    record.corner = static_cast<std::uint8_t>(k);
-    cracks.records_of_vertex[at(topology.facet_vertex(facet, k))].push_back(record);
-    face.nodes[at(k)] = {topology.facet_node(facet, k, 0), topology.facet_node(facet, k, 1)};
+  face.area = area;
+  for (int k = 0; k < 3; ++k) face.nodes[at(k)] = {topology.facet_node(facet, k, 0), topology.facet_node(facet, k, 1)};
+  update_normal(face, nodes.x);
+  return face;
+}
+
+// Faces and records of the facets; the records of a vertex in the order of the facets.
+void open_facets(CrackState& cracks, Topology& topology, const NodalState& nodes,
+                 std::span<const OverloadedFacet> facets, const InsertionOptions& options) {
+  std::vector<CrackFace> faces;
+  std::vector<VertexRecord> records;
+  for (const OverloadedFacet& overloaded : facets) {
+    const Index facet = overloaded.facet;
+    topology.facet_state[at(facet)] = FacetState::Cohesive;
+    const double area = options.facet_area[at(facet)];
+    cracks.cracked_area += area;
+    for (int k = 0; k < 3; ++k) {
+      CrackRecord record;
+      record.tributary_area = area / 3.0;
+      record.s0 = overloaded.effective;
+      record.delta_c = 2.0 * options.fracture_energy[at(facet)] / record.s0;
+      record.face = to_index(faces.size());
+      record.corner = static_cast<std::uint8_t>(k);
+      records.push_back({topology.facet_vertex(facet, k), record});
+    }
+    faces.push_back(new_face(topology, nodes, facet, area));
   }
-  cracks.faces.push_back(face);
+  std::stable_sort(records.begin(), records.end(),
+                   [](const VertexRecord& a, const VertexRecord& b) { return a.vertex < b.vertex; });
+  add_cracks(cracks, faces, records);
 }
 
 void sort_unique(std::vector<Index>& values) {
@@ -87,14 +99,6 @@ void sort_unique(std::vector<Index>& values) {
 }
 
 }  // namespace
-
-CrackState make_crack_state(const Topology& topology) {
-  CrackState cracks;
-  cracks.face_of_facet.assign(at(topology.num_facets()), none);
-  cracks.records_of_vertex.resize(at(topology.num_vertices()));
-  cracks.losses_of_vertex.resize(at(topology.num_vertices()));
-  return cracks;
-}
 
 std::vector<Index> split_vertex(Topology& topology, NodalState& nodes, Index vertex,
                                 std::span<const double> corner_mass) {
@@ -128,13 +132,10 @@ std::vector<Index> split_vertex(Topology& topology, NodalState& nodes, Index ver
 
 InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState& nodes,
                               std::span<const OverloadedFacet> facets, const InsertionOptions& options) {
+  open_facets(cracks, topology, nodes, facets, options);
   InsertionChange change;
-  const std::size_t first_new = cracks.faces.size();
-  for (const auto& overloaded : facets) {
-    add_face(cracks, topology, overloaded, options);
+  for (const OverloadedFacet& overloaded : facets)
     for (int k = 0; k < 3; ++k) change.split_vertices.push_back(topology.facet_vertex(overloaded.facet, k));
-  }
-  for (std::size_t slot = first_new; slot < cracks.faces.size(); ++slot) update_normal(cracks.faces[slot], nodes.x);
   sort_unique(change.split_vertices);
   for (const Index vertex : change.split_vertices) {
     const auto changed = split_vertex(topology, nodes, vertex, options.corner_mass);
@@ -142,11 +143,6 @@ InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState
   }
   for (const Index vertex : change.split_vertices) refresh_records(cracks, topology, vertex, options);
   sort_unique(change.changed_tets);
-
-  const auto old_end = static_cast<std::ptrdiff_t>(cracks.vertices.size());
-  cracks.vertices.insert(cracks.vertices.end(), change.split_vertices.begin(), change.split_vertices.end());
-  std::inplace_merge(cracks.vertices.begin(), cracks.vertices.begin() + old_end, cracks.vertices.end());
-  cracks.vertices.erase(std::unique(cracks.vertices.begin(), cracks.vertices.end()), cracks.vertices.end());
   return change;
 }
 

@@ -22,9 +22,6 @@ struct InsertionChange {
   std::vector<Index> changed_tets;
 };
 
-/// No crack anywhere.
-CrackState make_crack_state(const Topology& topology);
-
 /// Opens the facets: new cohesive records, and a node for every group of tets that no bonded facet joins any more.
 /// Mass, momentum and kinetic energy are kept exactly; a record that becomes active starts with the impulse that the
 /// stresses transmit there.

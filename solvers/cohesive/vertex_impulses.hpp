@@ -11,19 +11,20 @@ struct VertexImpulseOptions {
 };
 
 /// Cohesion, closure and friction of all crack records as impulses on the free velocities nodes.v (Moreau's non-smooth
-/// dynamics, Jean 1999, with an initially rigid cohesive capacity). Damage grows here. Returns true if any did.
+/// dynamics, Jean 1999, with an initially rigid cohesive capacity), after the rotations that give back angular
+/// momentum. Damage grows here. The losses are booked as if nothing else acted in this step. Returns true if damage
+/// grew.
 bool apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexImpulseOptions& options);
 
-/// Books the work of this step's crack impulses once nodes.v is final; the velocity before the step is nodes.v_before.
-void book_crack_losses(CrackState& cracks, const NodalState& nodes, const VertexImpulseOptions& options);
+/// Books anew the losses of this step at the vertices of the given nodes, which other impulses have changed since; then
+/// closes the books of the step.
+void settle_crack_losses(CrackState& cracks, const Topology& topology, const NodalState& nodes,
+                         std::vector<Index> changed_nodes, const VertexImpulseOptions& options);
 
 /// Energies of the cracks [J].
 struct CrackEnergies {
-  double stored = 0.0;    ///< recoverable, at the half step after positions x
-  double cohesive = 0.0;  ///< dissipated by separation
-  double closure = 0.0;
-  double friction = 0.0;
-  double cohesive_shear = 0.0;  ///< the part of `cohesive` spent in shear by softening records
+  double stored = 0.0;  ///< recoverable, at the half step after positions x
+  CrackLosses losses;
 
   CrackEnergies& operator+=(const CrackEnergies& other);
 };

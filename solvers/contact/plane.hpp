@@ -16,7 +16,7 @@ struct ToolAction {
   Vec3 moment = Vec3::Zero();   ///< about the origin [N m s]
   double friction_loss = 0.0;   ///< [J]
   double impact_loss = 0.0;     ///< kinetic energy of nodes stopped on the surface [J]
-  Index contacts = 0;           ///< nodes touching
+  std::vector<Index> nodes;     ///< touching, ascending
 
   ToolAction& operator+=(const ToolAction& other);
 };

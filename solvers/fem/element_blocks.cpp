@@ -32,7 +32,7 @@ void number_nodes(ElementBlocks& blocks, ElementBlock& block, const Topology& to
       corners.fill(0);
       if (tet == none) continue;
       for (std::size_t i = 0; i < 4; ++i)
-        corners[i] = static_cast<std::uint16_t>(4 * blocks.row_of_node[at(topology.tet_nodes[at(tet)][i])]);
+        corners[i] = static_cast<std::uint16_t>(node_stride * blocks.row_of_node[at(topology.tet_nodes[at(tet)][i])]);
     }
   for (const Index node : block.nodes) blocks.row_of_node[at(node)] = none;
 }
@@ -79,7 +79,7 @@ void rebuild(ElementBlocks& blocks, const Topology& topology, std::vector<char>&
 }  // namespace
 
 Index block_size(Index num_tets) {
-  constexpr Index smallest = 256, wanted_blocks = 64;
+  constexpr Index smallest = 256, wanted_blocks = 32;
   const Index size = std::clamp(num_tets / wanted_blocks, smallest, max_block_tets);
   return size / lanes * lanes;
 }

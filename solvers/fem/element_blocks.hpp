@@ -12,7 +12,9 @@ inline constexpr Index lanes = 8;              ///< tets of a lane group, whatev
 inline constexpr Index max_block_tets = 2048;  ///< bounds the local buffers of the kernels
 inline constexpr Index max_block_nodes = 4 * max_block_tets;
 
-/// The corners of a tet as 4 * local node, the offset of its entry in a buffer of padded vectors.
+inline constexpr Index node_stride = 8;  ///< doubles of a local node: padded position and force, one cache line
+
+/// The corners of a tet as node_stride * local node.
 using LocalCorners = std::array<std::uint16_t, 4>;
 
 struct ElementBlock {
@@ -29,7 +31,7 @@ struct ElementBlock {
 /// all.
 struct ElementBlocks {
   std::vector<ElementBlock> blocks;
-  std::vector<LocalCorners> corners;   ///< by group and lane; padding lanes have four times local node 0
+  std::vector<LocalCorners> corners;   ///< by group and lane; padding lanes have local node 0 four times
   Index num_groups = 0;                ///< over all blocks
   std::vector<Index> interface_nodes;  ///< nodes
   Csr slots_of_interface;              ///< per entry of interface_nodes its slots, by ascending block

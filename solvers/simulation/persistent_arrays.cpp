@@ -22,25 +22,23 @@ template <class Struct, class Member>
 Field(const char*, Member Struct::*) -> Field<Struct, Member>;
 
 constexpr auto fields(const CrackRecord*) {
-  return std::tuple{Field{"impulse", &CrackRecord::impulse},
-                    Field{"secant", &CrackRecord::secant},
-                    Field{"tributary_area", &CrackRecord::tributary_area},
-                    Field{"s0", &CrackRecord::s0},
-                    Field{"delta_c", &CrackRecord::delta_c},
-                    Field{"d_max", &CrackRecord::d_max},
-                    Field{"dissipated", &CrackRecord::dissipated},
-                    Field{"dissipated_shear", &CrackRecord::dissipated_shear},
-                    Field{"face", &CrackRecord::face},
-                    Field{"node_a", &CrackRecord::node_a},
-                    Field{"node_b", &CrackRecord::node_b},
-                    Field{"corner", &CrackRecord::corner},
-                    Field{"regime", &CrackRecord::regime}};
+  return std::tuple{Field{"impulse", &CrackRecord::impulse}, Field{"tributary_area", &CrackRecord::tributary_area},
+                    Field{"s0", &CrackRecord::s0},           Field{"delta_c", &CrackRecord::delta_c},
+                    Field{"d_max", &CrackRecord::d_max},     Field{"face", &CrackRecord::face},
+                    Field{"node_a", &CrackRecord::node_a},   Field{"node_b", &CrackRecord::node_b},
+                    Field{"corner", &CrackRecord::corner},   Field{"regime", &CrackRecord::regime}};
 }
 constexpr auto fields(const CrackFace*) {
-  return std::tuple{Field{"facet", &CrackFace::facet},   Field{"nodes", &CrackFace::nodes},
-                    Field{"normal", &CrackFace::normal}, Field{"couple", &CrackFace::couple},
-                    Field{"centre", &CrackFace::centre}, Field{"rotation", &CrackFace::rotation},
-                    Field{"area", &CrackFace::area},     Field{"failed", &CrackFace::failed}};
+  return std::tuple{Field{"facet", &CrackFace::facet},
+                    Field{"nodes", &CrackFace::nodes},
+                    Field{"normal", &CrackFace::normal},
+                    Field{"couple", &CrackFace::couple},
+                    Field{"carried_couple", &CrackFace::carried_couple},
+                    Field{"centre", &CrackFace::centre},
+                    Field{"rotation", &CrackFace::rotation},
+                    Field{"rotates", &CrackFace::rotates},
+                    Field{"area", &CrackFace::area},
+                    Field{"failed", &CrackFace::failed}};
 }
 constexpr auto fields(const CrackLosses*) {
   return std::tuple{Field{"cohesive", &CrackLosses::cohesive}, Field{"closure", &CrackLosses::closure},
@@ -67,8 +65,7 @@ constexpr auto fields(const BranchState*) {
 constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
 constexpr auto fields(const ToolAction*) {
   return std::tuple{Field{"impulse", &ToolAction::impulse}, Field{"moment", &ToolAction::moment},
-                    Field{"friction_loss", &ToolAction::friction_loss}, Field{"impact_loss", &ToolAction::impact_loss},
-                    Field{"contacts", &ToolAction::contacts}};
+                    Field{"friction_loss", &ToolAction::friction_loss}, Field{"impact_loss", &ToolAction::impact_loss}};
 }
 constexpr auto fields(const RunTotals*) {
   return std::tuple{Field{"mass_scaling_energy", &RunTotals::mass_scaling_energy},
@@ -201,14 +198,15 @@ void visit_single(Visitor& visit, const std::string& name, Struct& value) {
   if constexpr (!std::is_const_v<Struct>) value = one.at(0);
 }
 
-/// The list. `records` are all crack records in the order of the vertices.
-template <class Visitor, class Run, class Records>
-void visit_persistent(Visitor visit, Run& s, Records& records) {
+/// The list.
+template <class Visitor, class Run>
+void visit_persistent(Visitor visit, Run& s) {
   visit_nodal_fields(s.nodes, [&](const char* name, auto& field) { visit.plain(name, field); });
   visit.plain("topology.tet_nodes", s.topology.tet_nodes);
   visit.plain("topology.facet_state", s.topology.facet_state);
   visit.plain("topology.vertex_of_node", s.topology.vertex_of_node);
-  visit.structs("cracks.records", records);
+  visit.structs("cracks.records", s.cracks.records);
+  visit.plain("cracks.record_offsets", s.cracks.record_offsets);
   visit.structs("cracks.faces", s.cracks.faces);
   visit.structs("cracks.losses", s.cracks.losses_of_vertex);
   visit.plain("cracks.vertices", s.cracks.vertices);
@@ -239,14 +237,7 @@ std::string mesh_hash(const Simulation& s) {
 
 Checkpoint make_checkpoint(const Simulation& s) {
   Checkpoint checkpoint;
-  std::vector<CrackRecord> records;
-  std::vector<std::int32_t> counts;
-  for (const auto& part : s.cracks.records_of_vertex) {
-    counts.push_back(to_index(part.size()));
-    records.insert(records.end(), part.begin(), part.end());
-  }
-  visit_persistent(Writer{checkpoint}, s, records);
-  checkpoint.ints["cracks.records_of_vertex"] = counts;
+  visit_persistent(Writer{checkpoint}, s);
   checkpoint.doubles["scalars"] = {s.cracks.cracked_area, static_cast<double>(s.cracks.last_damage_step),
                                    s.contact.dissipated, static_cast<double>(s.contact.fragments)};
   checkpoint.texts["mesh"] = mesh_hash(s);
@@ -257,16 +248,8 @@ void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
   const auto mesh = checkpoint.texts.find("mesh");
   if (mesh == checkpoint.texts.end() || mesh->second != mesh_hash(s))
     throw InputError("checkpoint: it was taken on another mesh; resume with the case it belongs to");
-  std::vector<CrackRecord> records;
   const Reader reader{checkpoint};
-  visit_persistent(reader, s, records);
-  std::vector<std::int32_t> counts;
-  reader.plain("cracks.records_of_vertex", counts);
-  auto next = records.begin();
-  for (std::size_t v = 0; v < counts.size(); ++v) {
-    s.cracks.records_of_vertex[v].assign(next, next + counts[v]);
-    next += counts[v];
-  }
+  visit_persistent(reader, s);
   std::vector<double> scalars;
   reader.plain("scalars", scalars);
   s.cracks.cracked_area = scalars.at(0);

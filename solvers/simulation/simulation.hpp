@@ -36,13 +36,13 @@ struct ReferenceState {
 
 /// Sums over the run that no state variable holds.
 struct RunTotals {
-  ToolAction wall;                   ///< impulse, moment and losses so far
-  double mass_scaling_energy = 0.0;  ///< [J]
-  double added_mass = 0.0;           ///< by mass scaling [kg]
-  Vec3 added_linear = Vec3::Zero();     ///< momentum of that mass [kg m/s]
-  Vec3 added_angular = Vec3::Zero();    ///< about the origin [kg m2/s]
-  double max_wall_force = 0.0;       ///< magnitude of the normal force [N]
-  std::int64_t last_wall_step = -1;  ///< last step with a node on the wall
+  ToolAction wall;                    ///< impulse, moment and losses so far
+  double mass_scaling_energy = 0.0;   ///< [J]
+  double added_mass = 0.0;            ///< by mass scaling [kg]
+  Vec3 added_linear = Vec3::Zero();   ///< momentum of that mass [kg m/s]
+  Vec3 added_angular = Vec3::Zero();  ///< about the origin [kg m2/s]
+  double max_wall_force = 0.0;        ///< magnitude of the normal force [N]
+  std::int64_t last_wall_step = -1;   ///< last step with a node on the wall
   std::int64_t first_wall_step = -1;
   std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
   std::int64_t inserted_facets = 0;

@@ -20,6 +20,8 @@ VertexImpulseOptions impulse_options(const Simulation& s) {
   return {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps};
 }
 
+bool looks_for_fragments(const Simulation& s) { return s.clock.step % s.options.label_interval == 0; }
+
 bool has_cracks(const Simulation& s) { return !s.cracks.vertices.empty(); }
 
 // The corners of a vertex star that one node has.
@@ -77,8 +79,8 @@ void update_bulk(Simulation& s) {
 void update_faces(Simulation& s) {
   if (!has_cracks(s)) return;
   const PhaseTimer timer(s.phase_times, Phase::CrackFaces);
-  update_crack_faces(s.cracks, s.topology, s.nodes);
-  restore_angular_momentum(s.cracks, s.nodes);
+  const Index turn = looks_for_fragments(s) ? all_turns : static_cast<Index>(s.clock.step % num_turns);
+  update_crack_faces(s.cracks, s.topology, s.nodes, turn);
 }
 
 void look_for_new_fragments(Simulation& s) {
@@ -95,7 +97,7 @@ void look_for_new_fragments(Simulation& s) {
 void detect_contacts(Simulation& s) {
   if (!s.options.fracture || s.totals.inserted_facets == 0) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
-  if (s.clock.step % s.options.label_interval == 0) look_for_new_fragments(s);
+  if (looks_for_fragments(s)) look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
   double motion = largest_motion(s.contact, s.nodes.x);
   if (2.0 * motion > s.contact.skin) {
@@ -123,17 +125,23 @@ void apply_wall(Simulation& s) {
   if (!s.options.wall) return;
   const PhaseTimer timer(s.phase_times, Phase::Wall);
   const ToolAction action = apply_plane(*s.options.wall, s.nodes, s.clock.dt);
+  s.totals.wall.nodes.clear();
   s.totals.wall += action;
   s.totals.max_wall_force = std::max(s.totals.max_wall_force, action.impulse.dot(s.options.wall->normal) / s.clock.dt);
-  if (action.contacts == 0) return;
+  if (action.nodes.empty()) return;
   if (s.totals.first_wall_step < 0) s.totals.first_wall_step = s.clock.step;
   s.totals.last_wall_step = s.clock.step;
 }
 
 void book_losses(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Booking);
-  if (has_cracks(s)) book_crack_losses(s.cracks, s.nodes, impulse_options(s));
   book_contact_losses(s.contact, s.nodes);
+  if (!has_cracks(s)) return;
+  std::vector<Index> changed = s.totals.wall.nodes;
+  for (const Contact& contact : s.contact.contacts)
+    changed.insert(changed.end(), contact.nodes.begin(), contact.nodes.end());
+  settle_crack_losses(s.cracks, s.topology, s.nodes, std::move(changed), impulse_options(s));
+  if (looks_for_fragments(s)) drop_ended_faces(s.cracks);
 }
 
 StepStatus check_energies(Simulation& s) {
@@ -154,9 +162,9 @@ void balance_energies(Simulation& s) {
   if (s.options.fracture) {
     const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
     ledger[EnergyTerm::CohesiveStored] = cracks.stored;
-    ledger[EnergyTerm::CohesiveDissipated] = cracks.cohesive;
-    ledger[EnergyTerm::ClosureImpact] = cracks.closure;
-    ledger[EnergyTerm::CrackFriction] = cracks.friction;
+    ledger[EnergyTerm::CohesiveDissipated] = cracks.losses.cohesive;
+    ledger[EnergyTerm::ClosureImpact] = cracks.losses.closure;
+    ledger[EnergyTerm::CrackFriction] = cracks.losses.friction;
   }
   ledger[EnergyTerm::ContactDissipated] = s.contact.dissipated;
   ledger[EnergyTerm::ToolFriction] = s.totals.wall.friction_loss;

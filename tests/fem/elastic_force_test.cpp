@@ -20,7 +20,7 @@ const Material viscous_material = make_material(1.0, 0.25, 1.0, {0.4, 2.0});
 
 template <class T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 std::vector<Vec4> moved(const TetMesh& mesh, double amplitude, unsigned seed = 7) {

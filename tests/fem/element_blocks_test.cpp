@@ -24,7 +24,7 @@ void expect_consistent(const ElementBlocks& blocks, const Topology& topology) {
         ++seen[at(tet)];
         EXPECT_EQ(block_of_tet(blocks, tet), to_index(b));
         for (std::size_t i = 0; i < 4; ++i) {
-          ASSERT_EQ(block.nodes[corners[i] / 4], topology.tet_nodes[at(tet)][i]);
+          ASSERT_EQ(block.nodes[corners[i] / node_stride], topology.tet_nodes[at(tet)][i]);
           blocks_of_node[at(topology.tet_nodes[at(tet)][i])].insert(to_index(b));
         }
       }
