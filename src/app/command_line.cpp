@@ -1,0 +1,89 @@
+#include "app/command_line.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <new>
+
+#include "app/commands.hpp"
+#include "version.hpp"
+
+namespace knap {
+namespace {
+
+int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
+
+// A message of several lines keeps its mark on every one.
+int fail(const std::string& message, ExitCode exit_code) {
+  std::size_t begin = 0;
+  while (begin <= message.size()) {
+    const std::size_t end = std::min(message.find('\n', begin), message.size());
+    fmt::print(stderr, "error: {}\n", message.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return code(exit_code);
+}
+
+void add_case(CLI::App* command, std::filesystem::path& case_file, std::vector<std::string>& overrides) {
+  command->add_option("CASE", case_file, "Case file (TOML)")->required();
+  command->add_option("--set", overrides, "Replace a value of the case: section.key=value; may be repeated")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
+}
+
+CLI::App* add_run(CLI::App& app, RunArguments& run) {
+  CLI::App* command = app.add_subcommand("run", "Break a particle: mesh, simulate, write fragments, energy, pictures");
+  add_case(command, run.case_file, run.overrides);
+  command->add_option("--out", run.out, "Folder of the results; default: out/<name of the case>")->type_name("DIR");
+  command->add_option("--threads", run.threads, "Number of threads; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  auto* resume = command->add_flag("--resume", run.resume, "Continue an interrupted run from its checkpoint");
+  command->add_flag("--overwrite", run.overwrite, "Replace the results of an earlier run")->excludes(resume);
+  command->add_flag("--quiet", run.quiet, "Print nothing but warnings and errors");
+  return command;
+}
+
+int run_parsed(int argc, char** argv) {
+  CLI::App app{"Knap breaks a granule: fracture of a single particle on impact", "knap"};
+  app.set_version_flag("--version", std::string("knap ") + version);
+  app.require_subcommand(1);
+  RunArguments run;
+  CheckArguments check;
+  MeshArguments mesh;
+  bool markdown = false;
+  const CLI::App* run_app = add_run(app, run);
+  CLI::App* check_app = app.add_subcommand("check", "Validate a case and print its sanity card");
+  add_case(check_app, check.case_file, check.overrides);
+  CLI::App* mesh_app = app.add_subcommand("mesh", "Mesh the particle of a case and report the quality");
+  add_case(mesh_app, mesh.case_file, mesh.overrides);
+  mesh_app->add_option("--out", mesh.out, "Where to write the mesh (.vtu)")->type_name("FILE")->required();
+  CLI::App* keys_app = app.add_subcommand("keys", "Print every key of a case file");
+  keys_app->add_flag("--markdown", markdown, "As a page of documentation");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? code(ExitCode::Ok) : code(ExitCode::BadInput);
+  }
+  if (*run_app) return code(run_command(run));
+  if (*check_app) return code(check_command(check));
+  if (*mesh_app) return code(mesh_command(mesh));
+  return code(keys_command(markdown));
+}
+
+}  // namespace
+
+int run_command_line(int argc, char** argv) {
+  try {
+    return run_parsed(argc, argv);
+  } catch (const InputError& error) {
+    return fail(error.what(), ExitCode::BadInput);
+  } catch (const std::bad_alloc&) {
+    return fail("not enough memory", ExitCode::Failure);
+  } catch (const std::exception& error) {
+    return fail(error.what(), ExitCode::Failure);
+  }
+}
+
+}  // namespace knap

@@ -1,0 +1,42 @@
+#pragma once
+// The commands of the program. Each throws InputError for what the user got wrong.
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/errors.hpp"
+
+namespace knap {
+
+struct RunArguments {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;  ///< section.key=value
+  std::filesystem::path out;           ///< "" = out/<case name>
+  std::optional<int> threads;
+  bool resume = false;
+  bool overwrite = false;
+  bool quiet = false;
+};
+/// Breaks a particle: meshes, runs, writes everything into the run's folder.
+ExitCode run_command(const RunArguments& arguments);
+
+struct CheckArguments {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+};
+/// Validates a case and prints its sanity card, without a mesh unless the case brings one.
+ExitCode check_command(const CheckArguments& arguments);
+
+struct MeshArguments {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+  std::filesystem::path out;  ///< .vtu
+};
+/// Writes the mesh of a case and prints its quality.
+ExitCode mesh_command(const MeshArguments& arguments);
+
+/// Prints every key of a case file.
+ExitCode keys_command(bool markdown);
+
+}  // namespace knap

@@ -1,0 +1,94 @@
+#include "app/particle_mesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "meshing/read_msh.hpp"
+#include "core/errors.hpp"
+#include "meshing/reorder.hpp"
+
+namespace knap {
+namespace {
+
+// Free way to the wall at the start, over the element size at the contact.
+constexpr double gap_over_element = 1e-3;
+// Of a particle from a file: what counts as near the contact, over its height.
+constexpr double near_over_height = 0.125;
+
+Vec3 lowest_point(const TetMesh& mesh) {
+  return *std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
+                           [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+}
+
+double height(const TetMesh& mesh) {
+  const auto [low, high] = std::minmax_element(mesh.vertices.begin(), mesh.vertices.end(),
+                                               [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+  return high->z() - low->z();
+}
+
+// Mean edge of the tets whose centre is at a distance in [from, to] of a point; 0 without any.
+double local_mean_edge(const TetMesh& mesh, const Vec3& point, double from, double to) {
+  double sum = 0.0;
+  double count = 0.0;
+  for (const auto& [a, b, c, d] : mesh.tets) {
+    const std::array<Vec3, 4> x{mesh.vertices[at(a)], mesh.vertices[at(b)], mesh.vertices[at(c)], mesh.vertices[at(d)]};
+    const double distance = (0.25 * (x[0] + x[1] + x[2] + x[3]) - point).norm();
+    if (distance < from || distance > to) continue;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = 0; j < i; ++j) sum += (x[i] - x[j]).norm(), count += 1.0;
+  }
+  return count > 0.0 ? sum / count : 0.0;
+}
+
+TetMesh raw_mesh(const RunConfig& config) {
+  if (const auto shape = particle_shape(config.particle)) return tetrahedralise(*shape, mesh_options(config, *shape));
+  throw InputError("mesh files: not yet");
+  const TetMesh mesh;
+  check_mesh(mesh, config.particle.mesh_file.string());
+  return morton_ordered(mesh);
+}
+
+}  // namespace
+
+std::optional<Shape> particle_shape(const ParticleConfig& particle) {
+  switch (particle.shape) {
+    case ParticleShape::Sphere:
+      return Sphere{particle.diameter};
+    case ParticleShape::Ellipsoid:
+      return Ellipsoid{particle.diameters};
+    case ParticleShape::Box:
+      return Box{particle.lengths};
+    case ParticleShape::MeshFile:
+      break;
+  }
+  return std::nullopt;
+}
+
+TetrahedraliseOptions mesh_options(const RunConfig& config, const Shape& shape) {
+  return {.element_size = config.mesh.element_size,
+          .contact_element_size = config.mesh.contact_element_size,
+          .contact_extent = config.mesh.contact_extent,
+          .contact_point = Vec3(0.0, 0.0, -0.5 * extent(shape).z()),
+          .seed = config.mesh.seed,
+          .perturbation = config.mesh.perturbation};
+}
+
+ParticleMesh make_particle_mesh(const RunConfig& config) {
+  ParticleMesh particle;
+  particle.mesh = raw_mesh(config);
+  TetMesh& mesh = particle.mesh;
+  particle.quality = measure_quality(mesh);
+  particle.diameter = std::cbrt(6.0 / std::numbers::pi * particle.quality.total_volume);
+  const bool from_file = config.particle.shape == ParticleShape::MeshFile;
+  const double near = from_file ? near_over_height * height(mesh) : config.mesh.contact_extent;
+  const Vec3 lowest = lowest_point(mesh);
+  const auto or_mean = [&](double edge) { return edge > 0.0 ? edge : particle.quality.mean_edge; };
+  particle.contact_element_size = or_mean(local_mean_edge(mesh, lowest, 0.0, near));
+  particle.element_size = or_mean(local_mean_edge(mesh, lowest, 2.0 * near, 1e300));
+  const double lift = gap_over_element * particle.contact_element_size - lowest.z();
+  for (Vec3& x : mesh.vertices) x.z() += lift;
+  return particle;
+}
+
+}  // namespace knap

@@ -1,0 +1,29 @@
+#pragma once
+#include <optional>
+
+#include "config/run_config.hpp"
+#include "core/tet_mesh.hpp"
+#include "meshing/mesh_quality.hpp"
+#include "meshing/shape.hpp"
+#include "meshing/tetrahedralise.hpp"
+
+namespace knap {
+
+/// A particle's mesh, just above the wall z = 0 that it will strike.
+struct ParticleMesh {
+  TetMesh mesh;
+  MeshQuality quality;
+  double diameter = 0.0;              ///< of the sphere of equal volume [m]
+  double contact_element_size = 0.0;  ///< mean edge near the lowest point [m]
+  double element_size = 0.0;          ///< mean edge far from it [m]
+};
+
+/// The shape of a case; nothing for a mesh file.
+std::optional<Shape> particle_shape(const ParticleConfig& particle);
+/// How that shape is to be meshed.
+TetrahedraliseOptions mesh_options(const RunConfig& config, const Shape& shape);
+
+/// Meshes the shape, or reads and checks the mesh file. Throws InputError.
+ParticleMesh make_particle_mesh(const RunConfig& config);
+
+}  // namespace knap

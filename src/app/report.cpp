@@ -1,0 +1,161 @@
+#include "app/report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "io/file_output.hpp"
+#include "version.hpp"
+
+namespace knap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+Json vector(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
+
+Json energy(const Simulation& s) {
+  const double incident = s.reference.incident_energy;
+  Json json{{"incident", incident},
+            {"closure_error", s.ledger.max_closure_error},
+            {"closure_error_at_end", s.ledger.closure_error()}};
+  for (std::size_t i = 0; i < num_energy_terms; ++i) {
+    const auto term = static_cast<EnergyTerm>(i);
+    json[name(term)] = s.ledger[term] / incident;
+  }
+  return json;
+}
+
+Json fragments(const BreakageMeasures& m) {
+  return {{"count", m.count},
+          {"count_above_1pct", m.count_above_1pct},
+          {"count_above_0p1pct", m.count_above_0p1pct},
+          {"largest_mass_fraction", m.largest_mass_fraction},
+          {"second_mass_fraction", m.second_mass_fraction},
+          {"unresolved_mass_fraction", m.unresolved_mass_fraction},
+          {"mass_sum_fraction", m.mass_sum_fraction}};
+}
+
+Json breakage(const BreakageMeasures& m) {
+  Json json{{"label", "damage"}, {"class", name(m.breakage_class)}, {"chipping_ratio", m.chipping_ratio}};
+  for (const FinerFraction& finer : m.finer) {
+    const std::string key = fmt::format("t{}", finer.divisor);
+    json[key] = finer.resolved ? Json(finer.fraction) : Json(nullptr);
+    json[key + "_resolved"] = finer.resolved;
+  }
+  return json;
+}
+
+Json resolved(const ResolvedLength& zone) {
+  return {{"length", zone.length}, {"elements", zone.elements()}, {"verdict", name(zone.verdict())}};
+}
+
+Json sanity(const SanityCard& card) {
+  Json json{{"diameter", card.input.diameter},         {"contact_element_size", card.input.contact_element_size},
+            {"element_size", card.input.element_size}, {"normal_speed", card.normal_speed},
+            {"p_wave_speed", card.p_wave_speed},       {"s_wave_speed", card.s_wave_speed},
+            {"crossing_time", card.crossing_time},     {"hertz_contact_time", card.contact_time},
+            {"hertz_peak_force", card.peak_force},     {"contact_radius", resolved(card.contact_radius)}};
+  if (card.fracture) {
+    json["characteristic_length"] = card.fracture->characteristic_length;
+    json["cohesive_zone"] = resolved(card.fracture->cohesive_zone);
+    json["shear_zone"] = resolved(card.fracture->shear_zone);
+    json["final_opening"] = card.fracture->final_opening;
+    json["critical_speed"] = card.fracture->critical_speed;
+  }
+  json["expected_end_time"] = card.end_time;
+  json["expected_steps"] = card.num_steps;
+  json["expected_wall_time"] = card.wall_time;
+  if (card.input.time_step) json["time_step_limited_by"] = card.input.time_step->limited_by;
+  return json;
+}
+
+Json rebound(const RunOutcome& outcome) {
+  const Fragment& largest = outcome.strict.fragments.front();
+  return {{"restitution_normal", outcome.rebound.normal},
+          {"restitution_tangential", outcome.rebound.tangential},
+          {"spin", largest.spin.norm()},
+          {"spin_vector", vector(largest.spin)},
+          {"largest_fragment_velocity", vector(largest.velocity)}};
+}
+
+Json cracks(const Simulation& s, const CrackCensus& census) {
+  return {{"area", census.area},
+          {"area_mode_i", census.area_mode_i},
+          {"area_mode_ii", census.area_mode_ii},
+          {"failed_area", census.failed_area},
+          {"inserted_facets", s.totals.inserted_facets}};
+}
+
+Json wall(const Simulation& s) {
+  const auto time_of = [&](std::int64_t step) {
+    return step < 0 ? Json(nullptr) : Json(s.clock.dt * static_cast<double>(step));
+  };
+  return {{"max_force", s.totals.max_wall_force},
+          {"impulse", vector(s.totals.wall.impulse)},
+          {"first_contact", time_of(s.totals.first_wall_step)},
+          {"last_contact", time_of(s.totals.last_wall_step)}};
+}
+
+Json performance(const Simulation& s, const Session& session) {
+  const auto steps = static_cast<double>(s.clock.step - session.first_step);
+  Json phases;
+  for (std::size_t i = 0; i < num_phases; ++i) phases[name(static_cast<Phase>(i))] = s.phase_times[i];
+  const double rate = session.wall_seconds > 0.0 ? steps * s.topology.num_tets() / session.wall_seconds : 0.0;
+  return {{"wall_s", session.wall_seconds},
+          {"tet_updates_per_s", rate},
+          {"threads", session.threads},
+          {"resumed_from_step", session.first_step > 0 ? Json(session.first_step) : Json(nullptr)},
+          {"phases", phases}};
+}
+
+Json units() {
+  return {{"time", "s"},
+          {"mesh.edge_mean", "m"},
+          {"energy.incident", "J"},
+          {"energy, terms and errors",
+           "of the incident kinetic energy, at the end; closure_error is the largest of the run"},
+          {"momentum.linear_error", "of m v"},
+          {"momentum.angular_error", "of the larger of m v R and the initial angular momentum"},
+          {"fragments, breakage", "mass over the particle's mass; fragments by the strict label, breakage by damage"},
+          {"rebound.restitution_*", "velocity of the mass centre over its incident part"},
+          {"rebound.spin", "rad/s, of the largest fragment"},
+          {"rebound.largest_fragment_velocity", "m/s"},
+          {"cracks.*area*", "m2"},
+          {"wall.max_force", "N"},
+          {"wall.impulse", "N s"},
+          {"sanity", "SI: m, s, m/s, N"},
+          {"performance", "s of wall-clock time, of this session"}};
+}
+
+}  // namespace
+
+void write_report(const std::filesystem::path& path, const Simulation& s, const RunOutcome& outcome) {
+  Json report{{"status", status(outcome.session.stop_reason)},
+              {"stop_reason", name(outcome.session.stop_reason)},
+              {"version", version},
+              {"case", outcome.case_name},
+              {"state_hash", outcome.state_hash}};
+  report["mesh"] = {{"tets", outcome.quality.num_tets},
+                    {"nodes", outcome.quality.num_vertices},
+                    {"quality_min", outcome.quality.min_shape},
+                    {"edge_mean", outcome.quality.mean_edge},
+                    {"nodes_at_end", s.nodes.size()}};
+  report["time"] = {{"end", s.clock.time()}, {"steps", s.clock.step}, {"dt", s.clock.dt}};
+  report["energy"] = energy(s);
+  report["momentum"] = {{"linear_error", outcome.momentum.linear}, {"angular_error", outcome.momentum.angular}};
+  report["fragments"] = fragments(outcome.strict.measures);
+  report["fragments"]["label"] = "strict";
+  report["fragments"]["by_damage_label"] = fragments(outcome.damage.measures);
+  report["breakage"] = breakage(outcome.damage.measures);
+  report["rebound"] = rebound(outcome);
+  report["cracks"] = cracks(s, outcome.cracks);
+  report["wall"] = wall(s);
+  report["mass_scaling"] = {{"added_mass_fraction", s.totals.added_mass / s.reference.start.mass}};
+  report["sanity"] = sanity(outcome.card);
+  report["performance"] = performance(s, outcome.session);
+  report["units"] = units();
+  write_text_atomically(path, report.dump(2) + "\n");
+}
+
+}  // namespace knap

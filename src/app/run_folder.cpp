@@ -1,0 +1,120 @@
+#include "app/run_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <fstream>
+
+#include "config/load_config.hpp"
+#include "config/schema.hpp"
+#include "core/errors.hpp"
+#include "io/file_output.hpp"
+
+namespace knap {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+bool holds_a_run(const RunFolder& folder, const RunConfig& config) {
+  std::ifstream file(folder.effective());
+  std::string line;
+  return std::getline(file, line) && line == first_line(effective_toml(config));
+}
+
+void remove_frames(const fs::path& folder, std::string_view stem) {
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) return;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with(stem) && name.ends_with(".vtu")) fs::remove(entry.path());
+  }
+  if (fs::is_empty(folder)) fs::remove(folder);
+}
+
+void remove_files(const RunFolder& folder) {
+  for (const char* name : {"log.txt", "report.json", "history.csv", "fragments.csv", "size_distribution.csv",
+                           "picture.png", "checkpoint.h5", "frames.pvd", "cracks.pvd", "effective.toml"})
+    fs::remove(folder.path / name);
+  remove_frames(folder.path / "frames", "frame_");
+  remove_frames(folder.path / "cracks", "cracks_");
+}
+
+void make_folder(const fs::path& path) {
+  std::error_code error;
+  fs::create_directories(path, error);
+  if (error) throw InputError(fmt::format("{}: cannot make this folder: {}", path.string(), error.message()));
+}
+
+std::string shown(const Value& value) {
+  struct Show {
+    std::string operator()(std::monostate) const { return "not set"; }
+    std::string operator()(double x) const { return fmt::format("{}", x); }
+    std::string operator()(std::int64_t x) const { return std::to_string(x); }
+    std::string operator()(bool x) const { return x ? "true" : "false"; }
+    std::string operator()(const std::string& x) const { return x; }
+    std::string operator()(const Vec3& x) const { return fmt::format("[{}, {}, {}]", x[0], x[1], x[2]); }
+  };
+  return std::visit(Show{}, value);
+}
+
+// Every key must be as it was; only the number of threads and of wall-clock seconds change nothing in the results.
+void require_same_case(const RunFolder& folder, const RunConfig& config) {
+  const RunConfig before = load_config(folder.effective());
+  for (const Key& key : schema()) {
+    if ((key.section == "run" && key.name == "threads") || key.name == "checkpoint_interval") continue;
+    const Value was = key.get(before);
+    const Value is = key.get(config);
+    if (was != is)
+      throw InputError(fmt::format("{}: cannot resume another case: {}.{} was {} there and is {} now",
+                                   folder.path.string(), key.section, key.name, shown(was), shown(is)));
+  }
+}
+
+void check_resumable(const RunFolder& folder, const RunConfig& config) {
+  if (!fs::exists(folder.path))
+    throw InputError(fmt::format("{}: there is no such run to resume", folder.path.string()));
+  if (!holds_a_run(folder, config))
+    throw InputError(fmt::format("{}: holds no run of Knap to resume (no effective.toml)", folder.path.string()));
+  require_same_case(folder, config);
+  if (!fs::exists(folder.checkpoint()))
+    throw InputError(
+        fmt::format("{}: has no checkpoint.h5 to resume from; start again with --overwrite", folder.path.string()));
+}
+
+}  // namespace
+
+void remove_run(const RunFolder& folder) {
+  remove_files(folder);
+  std::error_code error;
+  if (fs::is_empty(folder.path, error)) fs::remove(folder.path, error);
+}
+
+RunFolder open_run_folder(const fs::path& path, FolderUse use, const RunConfig& config) {
+  const RunFolder folder{path};
+  if (use == FolderUse::Resume) {
+    check_resumable(folder, config);
+    return folder;
+  }
+  std::error_code error;
+  if (fs::exists(path, error) && !fs::is_directory(path, error))
+    throw InputError(fmt::format("{}: is a file, not a folder for results", path.string()));
+  if (fs::exists(path, error) && !fs::is_empty(path, error)) {
+    if (use == FolderUse::New)
+      throw InputError(fmt::format(
+          "{}: exists already; give another folder with --out, replace it with --overwrite, or continue it with "
+          "--resume",
+          path.string()));
+    if (!holds_a_run(folder, config))
+      throw InputError(
+          fmt::format("{}: is not empty and was not written by Knap (no effective.toml); --overwrite leaves it alone",
+                      path.string()));
+    remove_files(folder);
+  }
+  make_folder(path);
+  write_text_atomically(folder.effective(), effective_toml(config));
+  return folder;
+}
+
+}  // namespace knap

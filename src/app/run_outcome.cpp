@@ -1,0 +1,83 @@
+#include "app/run_outcome.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "simulation/persistent_arrays.hpp"
+
+namespace knap {
+namespace {
+
+Pieces pieces(const Simulation& s, FragmentLabel label) {
+  const auto labels = fragment_labels(s.topology, s.cracks, label);
+  Pieces result;
+  result.fragment_of_tet = labels_by_size(labels, s.reference.tet_volume);
+  result.fragments = find_fragments({.tet_nodes = s.topology.tet_nodes,
+                                     .tet_facets = s.topology.tet_facets,
+                                     .facet_tets = s.topology.facet_tets,
+                                     .x = s.nodes.x,
+                                     .v = s.nodes.v,
+                                     .tet_volume = s.reference.tet_volume,
+                                     .density = s.options.density,
+                                     .label = labels});
+  return result;
+}
+
+// The term that grew or fell most between two ledgers.
+EnergyTerm most_changed(const EnergyLedger& before, const EnergyLedger& now) {
+  std::size_t worst = 0;
+  for (std::size_t term = 0; term < num_energy_terms; ++term) {
+    const auto change = [&](std::size_t t) { return std::abs(now.value[t] - before.value[t]); };
+    if (!(change(term) <= change(worst))) worst = term;  // one that is not a number counts as the largest
+  }
+  return static_cast<EnergyTerm>(worst);
+}
+
+}  // namespace
+
+RunOutcome run_outcome(const Simulation& s, const RunIdentity& identity, const Session& session) {
+  RunOutcome outcome{.case_name = identity.case_name,
+                     .session = session,
+                     .card = identity.card,
+                     .quality = identity.quality,
+                     .strict = pieces(s, FragmentLabel::Strict),
+                     .damage = pieces(s, FragmentLabel::Damage),
+                     .cracks = crack_census(s),
+                     .rebound = rebound(s),
+                     .momentum = momentum_errors(s, 0.5 * identity.card.input.diameter),
+                     .state_hash = state_hash(s)};
+  const ParticleScale scale{s.reference.start.mass, identity.card.input.diameter, s.reference.mean_edge};
+  outcome.strict.measures = breakage_measures(outcome.strict.fragments, scale);
+  outcome.damage.measures = breakage_measures(outcome.damage.fragments, scale);
+  return outcome;
+}
+
+std::string_view status(StopReason reason) {
+  switch (reason) {
+    case StopReason::AtRest:
+    case StopReason::EndTime:
+      return "finished";
+    case StopReason::Interrupted:
+      return "interrupted";
+    case StopReason::EnergyNotClosed:
+    case StopReason::NotFinite:
+      break;
+  }
+  return "failed";
+}
+
+std::string failure_message(const Simulation& s, StopReason reason) {
+  const EnergyTerm term = most_changed(s.last_good_ledger, s.ledger);
+  const double incident = s.reference.incident_energy;
+  const std::string change = fmt::format(
+      "since the balance was last within 1 %, {} changed most: from {:.4g} to {:.4g} of the incident energy",
+      name(term), s.last_good_ledger[term] / incident, s.ledger[term] / incident);
+  if (reason == StopReason::NotFinite)
+    return fmt::format("the energies are not finite any more at step {}; {}", s.clock.step, change);
+  return fmt::format("the energy balance is off by {:.2f} % of the incident energy at step {}; {}",
+                     100.0 * s.ledger.closure_error(), s.clock.step, change);
+}
+
+}  // namespace knap

@@ -1,0 +1,54 @@
+#pragma once
+#include <string>
+
+#include "analysis/breakage.hpp"
+#include "analysis/sanity_card.hpp"
+#include "meshing/mesh_quality.hpp"
+#include "observers/fragment_census.hpp"
+#include "simulation/run.hpp"
+
+namespace knap {
+
+/// The pieces of the particle by one label.
+struct Pieces {
+  std::vector<Index> fragment_of_tet;  ///< ids of `fragments`
+  std::vector<Fragment> fragments;     ///< the largest first
+  BreakageMeasures measures;
+};
+
+/// How a session of a run went.
+struct Session {
+  StopReason stop_reason = StopReason::EndTime;
+  std::int64_t first_step = 0;  ///< 0, or that of the checkpoint
+  double wall_seconds = 0.0;    ///< of the steps, observers included
+  int threads = 1;
+};
+
+/// All that report, tables, picture and summary tell.
+struct RunOutcome {
+  std::string case_name;
+  Session session;
+  SanityCard card;
+  MeshQuality quality;
+  Pieces strict;
+  Pieces damage;  ///< the ones that breakage is measured by
+  CrackCensus cracks;
+  Rebound rebound;
+  MomentumErrors momentum;
+  std::string state_hash;
+};
+
+/// What a run is known by before it starts.
+struct RunIdentity {
+  std::string case_name;
+  SanityCard card;
+  MeshQuality quality;
+};
+RunOutcome run_outcome(const Simulation& s, const RunIdentity& identity, const Session& session);
+
+/// "finished", "interrupted" or "failed".
+std::string_view status(StopReason reason);
+/// For a run that failed: what went wrong, with the ledger term that changed most since the balance was last good.
+std::string failure_message(const Simulation& s, StopReason reason);
+
+}  // namespace knap

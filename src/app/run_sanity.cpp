@@ -1,0 +1,127 @@
+#include "app/run_sanity.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "core/parallel.hpp"
+#include "fem/stable_time_step.hpp"
+#include "simulation/step.hpp"
+
+namespace knap {
+namespace {
+
+// Critical step over (element size at the contact)/c_p of meshes as tetrahedralise makes them, measured.
+constexpr double critical_step_over_crossing = 0.25;
+// Wall time of a tet in an elastic step on one core [s].
+constexpr double elastic_cost = 15e-9;
+// Mean cost of a step of a run that breaks, over that of an elastic step.
+constexpr double breaking_over_elastic = 5.0;
+// From this part of the critical speed on, cracks are to be expected.
+constexpr double breaking_speed_ratio = 0.7;
+// Meshes up to this size are copied to time a few steps.
+constexpr Index most_tets_to_copy = 500000;
+
+SanityInput material_input(const RunConfig& config) {
+  SanityInput input{.young_modulus = config.material.young_modulus,
+                    .poisson_ratio = config.material.poisson_ratio,
+                    .density = config.material.density,
+                    .speed = config.impact.speed,
+                    .angle = config.impact.angle,
+                    .end_time = config.run.end_time};
+  const FractureConfig& fracture = config.fracture;
+  if (fracture.insertion != Insertion::None)
+    input.fracture = {fracture.strength, fracture.fracture_energy, fracture.shear_strength_ratio};
+  return input;
+}
+
+double volume_diameter(double volume) { return std::cbrt(6.0 / std::numbers::pi * volume); }
+
+bool is_expected_to_break(const SanityCard& card) {
+  return card.fracture && card.normal_speed > breaking_speed_ratio * card.fracture->critical_speed;
+}
+
+// The card once its cost is known; `elastic` is the cost of an elastic step over the tets.
+SanityCard card_with_cost(SanityInput input, double elastic) {
+  input.cost_per_tet_step = elastic * (is_expected_to_break(sanity_card(input)) ? breaking_over_elastic : 1.0);
+  return sanity_card(input);
+}
+
+SanityCard card_with_estimated_step(const RunConfig& config, SanityInput input) {
+  const double crossing = input.contact_element_size / sanity_card(input).p_wave_speed;
+  input.time_step = {config.run.step_safety * critical_step_over_crossing * crossing,
+                     "the contact's elements; estimated"};
+  return card_with_cost(std::move(input), elastic_cost / num_threads());
+}
+
+// The node with the shortest critical step, for the reader.
+std::string step_limit(const Simulation& s, const TetMesh& mesh) {
+  Index worst = 0;
+  double largest = 0.0;
+  for (Index i = 0; i < s.nodes.size(); ++i) {
+    const double bound =
+        nodal_frequency_bound2(s.topology.corners_of_vertex[i], s.reference.corner_stiffness, s.nodes.mass[at(i)]);
+    if (bound > largest) worst = i, largest = bound;
+  }
+  double edge = 1e300;
+  for (const Index corner : s.topology.corners_of_vertex[worst])
+    for (const Index other : s.topology.tet_vertices[at(corner >> 2)])
+      if (other != worst) edge = std::min(edge, (mesh.vertices[at(other)] - mesh.vertices[at(worst)]).norm());
+  return fmt::format("a node {:.3g} mm above the wall, shortest edge {:.3g} um", 1e3 * mesh.vertices[at(worst)].z(),
+                     1e6 * edge);
+}
+
+double measured_elastic_cost(const Simulation& s) {
+  constexpr int steps = 24;
+  Simulation copy = s;
+  step(copy);
+  const auto start = std::chrono::steady_clock::now();
+  for (int i = 0; i < steps; ++i) step(copy);
+  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return seconds / (steps * static_cast<double>(s.topology.num_tets()));
+}
+
+SanityInput mesh_input(const RunConfig& config, const ParticleMesh& particle) {
+  SanityInput input = material_input(config);
+  input.diameter = particle.diameter;
+  input.volume = particle.quality.total_volume;
+  input.contact_element_size = particle.contact_element_size;
+  input.element_size = particle.element_size;
+  input.num_tets = particle.mesh.num_tets();
+  return input;
+}
+
+}  // namespace
+
+SanityCard estimated_card(const RunConfig& config, const Shape& shape) {
+  SanityInput input = material_input(config);
+  input.volume = volume(shape);
+  input.diameter = volume_diameter(input.volume);
+  input.contact_element_size = config.mesh.contact_element_size;
+  input.element_size = config.mesh.element_size;
+  input.num_tets = static_cast<Index>(expected_num_tets(shape, mesh_options(config, shape)));
+  return card_with_estimated_step(config, std::move(input));
+}
+
+SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle) {
+  return card_with_estimated_step(config, mesh_input(config, particle));
+}
+
+SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s) {
+  SanityInput input = mesh_input(config, particle);
+  input.time_step = {s.clock.dt, step_limit(s, particle.mesh)};
+  const bool timed = s.topology.num_tets() <= most_tets_to_copy;
+  return card_with_cost(std::move(input), timed ? measured_elastic_cost(s) : elastic_cost / num_threads());
+}
+
+RunLimits run_limits(const SanityCard& card) {
+  if (card.input.end_time) return {.end_time = *card.input.end_time, .automatic = false};
+  return {.end_time = 60.0 * card.crossing_time + 4.0 * card.contact_time,
+          .automatic = true,
+          .quiet_time = 10.0 * card.crossing_time};
+}
+
+}  // namespace knap

@@ -1,0 +1,19 @@
+#pragma once
+#include "analysis/sanity_card.hpp"
+#include "app/particle_mesh.hpp"
+#include "simulation/run.hpp"
+#include "simulation/simulation.hpp"
+
+namespace knap {
+
+/// The card of a case from estimates alone: nominal element sizes, expected number of tets and time step.
+SanityCard estimated_card(const RunConfig& config, const Shape& shape);
+/// The card of a mesh before a run is made of it; the time step is estimated.
+SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle);
+/// The card of a run about to start; times a few steps of a copy of it.
+SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s);
+
+/// When a run with this card ends: at the given time, else by itself, at the latest after 60 d/c_p and 4 contact times.
+RunLimits run_limits(const SanityCard& card);
+
+}  // namespace knap

@@ -1,0 +1,20 @@
+#pragma once
+#include <functional>
+#include <string>
+
+#include "simulation/observer.hpp"
+
+namespace knap {
+
+/// Warns once when the energy balance is off by more than `energy_warning`.
+class EnergyWatch : public Observer {
+ public:
+  explicit EnergyWatch(std::function<void(const std::string&)> warn);
+  void look(const Simulation& s) override;
+
+ private:
+  std::function<void(const std::string&)> warn_;
+  bool warned_ = false;
+};
+
+}  // namespace knap

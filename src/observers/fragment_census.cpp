@@ -1,0 +1,115 @@
+#include "observers/fragment_census.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "cohesive/crack_faces.hpp"
+
+namespace knap {
+namespace {
+
+double shear_share(const CrackState& cracks) {
+  double total = 0.0;
+  double shear = 0.0;
+  for (const Index vertex : cracks.vertices) {
+    for (const CrackRecord& record : cracks.records_of_vertex[at(vertex)]) {
+      total += record.dissipated;
+      shear += record.dissipated_shear;
+    }
+    total += cracks.losses_of_vertex[at(vertex)].cohesive;
+    shear += cracks.losses_of_vertex[at(vertex)].cohesive_shear;
+  }
+  return total > 0.0 ? std::clamp(shear / total, 0.0, 1.0) : 0.0;
+}
+
+// Share of a facet's corners that have failed.
+double failed_share(const Simulation& s, Index facet) {
+  switch (s.topology.facet_state[at(facet)]) {
+    case FacetState::Bonded:
+      return 0.0;
+    case FacetState::Cohesive: {
+      const auto& failed = s.cracks.faces[at(s.cracks.face_of_facet[at(facet)])].failed;
+      return (failed[0] + failed[1] + failed[2]) / 3.0;
+    }
+    case FacetState::Failed:
+    case FacetState::HandedOver:
+      break;
+  }
+  return 1.0;
+}
+
+double ratio(double a, double b) { return b > 0.0 ? a / b : std::numeric_limits<double>::quiet_NaN(); }
+
+}  // namespace
+
+CrackCensus crack_census(const Simulation& s) {
+  CrackCensus census;
+  if (s.totals.inserted_facets == 0) return census;
+  census.area = s.cracks.cracked_area;
+  const double share = shear_share(s.cracks);
+  census.area_mode_i = (1.0 - share) * census.area;
+  census.area_mode_ii = share * census.area;
+  for (Index facet = 0; facet < s.topology.num_facets(); ++facet)
+    census.failed_area += failed_share(s, facet) * s.reference.facet_area[at(facet)];
+  return census;
+}
+
+Index count_fragments(const Simulation& s, FragmentLabel label) {
+  if (s.totals.inserted_facets == 0) return 1;
+  return num_fragments(fragment_labels(s.topology, s.cracks, label));
+}
+
+std::vector<FaceRecords> records_of_faces(const CrackState& cracks) {
+  std::vector<FaceRecords> records(cracks.faces.size(), FaceRecords{});
+  for (const Index vertex : cracks.vertices)
+    for (const CrackRecord& record : cracks.records_of_vertex[at(vertex)])
+      records[at(record.face)][record.corner] = &record;
+  return records;
+}
+
+std::vector<double> facet_damage(const Simulation& s) {
+  std::vector<double> damage(at(s.topology.num_facets()), 0.0);
+  const auto records = records_of_faces(s.cracks);
+  for (Index facet = 0; facet < s.topology.num_facets(); ++facet) {
+    const FacetState state = s.topology.facet_state[at(facet)];
+    if (state == FacetState::Bonded) continue;
+    if (state != FacetState::Cohesive) {
+      damage[at(facet)] = 1.0;
+      continue;
+    }
+    for (const CrackRecord* record : records[at(s.cracks.face_of_facet[at(facet)])])
+      damage[at(facet)] += (record ? record->damage() : 1.0) / 3.0;
+  }
+  return damage;
+}
+
+std::vector<double> tet_damage(const Simulation& s) {
+  const auto of_facet = facet_damage(s);
+  std::vector<double> damage(at(s.topology.num_tets()), 0.0);
+  for (Index tet = 0; tet < s.topology.num_tets(); ++tet)
+    for (const Index facet : s.topology.tet_facets[at(tet)])
+      if (facet != none) damage[at(tet)] = std::max(damage[at(tet)], of_facet[at(facet)]);
+  return damage;
+}
+
+Rebound rebound(const Simulation& s) {
+  const Vec3 normal = s.options.wall ? s.options.wall->normal : Vec3::UnitZ();
+  const Vec3 start = s.reference.start.velocity();
+  const Vec3 now = momentum(s.nodes).velocity();
+  const Vec3 along = start - start.dot(normal) * normal;
+  Rebound result{ratio(now.dot(normal), -start.dot(normal)), std::numeric_limits<double>::quiet_NaN()};
+  if (along.norm() > 1e-9 * start.norm()) result.tangential = now.dot(along) / along.squaredNorm();
+  return result;
+}
+
+MomentumErrors momentum_errors(const Simulation& s, double radius) {
+  const Momentum& start = s.reference.start;
+  const Momentum now = momentum(s.nodes);
+  const Vec3 linear = now.linear - start.linear - s.totals.wall.impulse - s.totals.added_linear;
+  const Vec3 angular =
+      now.angular - start.angular - s.totals.wall.moment - s.totals.added_angular - pending_angular_momentum(s.cracks);
+  const double incident = start.linear.norm();
+  return {ratio(linear.norm(), incident), ratio(angular.norm(), std::max(incident * radius, start.angular.norm()))};
+}
+
+}  // namespace knap
