@@ -8,7 +8,7 @@ namespace knap {
 
 /// How facets break; absent = they never do.
 struct FractureOptions {
-  CohesiveLaw law;
+  CohesiveLaw law{};
   double strength = 0.0;                  ///< sigma_c [Pa]
   double fracture_energy = 0.0;           ///< mode I [J/m2]
   double weibull_modulus = 0.0;           ///< 0 = uniform strength
@@ -23,8 +23,8 @@ struct SimulationOptions {
   double density = 0.0;
   double viscous_ratio = 0.0;    ///< of the viscoelastic branch [-]
   double relaxation_time = 0.0;  ///< of that branch [s]
-  std::optional<FractureOptions> fracture;
-  std::optional<Plane> wall;
+  std::optional<FractureOptions> fracture{};
+  std::optional<Plane> wall{};
   Vec3 velocity = Vec3::Zero();  ///< of the whole particle at the start [m/s]
   Vec3 spin = Vec3::Zero();      ///< about its mass centre [rad/s]
   double step_safety = 0.5;      ///< time step over the nodal stability bound
