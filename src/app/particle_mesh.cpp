@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "meshing/read_msh.hpp"
-#include "core/errors.hpp"
 #include "meshing/reorder.hpp"
 
 namespace knap {
@@ -43,8 +42,7 @@ double local_mean_edge(const TetMesh& mesh, const Vec3& point, double from, doub
 
 TetMesh raw_mesh(const RunConfig& config) {
   if (const auto shape = particle_shape(config.particle)) return tetrahedralise(*shape, mesh_options(config, *shape));
-  throw InputError("mesh files: not yet");
-  const TetMesh mesh;
+  const TetMesh mesh = read_msh(config.particle.mesh_file, config.particle.mesh_scale);
   check_mesh(mesh, config.particle.mesh_file.string());
   return morton_ordered(mesh);
 }

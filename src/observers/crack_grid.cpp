@@ -1,7 +1,7 @@
 #include "observers/crack_grid.hpp"
 
 #include <cmath>
-#include <limits>
+#include <numbers>
 
 #include "observers/fragment_census.hpp"
 
@@ -31,15 +31,9 @@ Opening opening(const Simulation& s, Index facet) {
   return result;
 }
 
-double mode_mixity(const FaceRecords& records) {
-  double total = 0.0;
-  double shear = 0.0;
-  for (const CrackRecord* record : records) {
-    if (!record) continue;
-    total += record->dissipated;
-    shear += record->dissipated_shear;
-  }
-  return total > 0.0 ? shear / total : std::numeric_limits<double>::quiet_NaN();
+// From 0, pure opening, to 1, pure shear.
+double mode_mixity(const Opening& open) {
+  return 2.0 / std::numbers::pi * std::atan2(open.shear, std::max(0.0, open.normal));
 }
 
 }  // namespace
@@ -51,7 +45,6 @@ VtkGrid crack_grid(const Simulation& s) {
   VtkField damage{"damage [-]", 1, {}}, mixity{"mode_mixity [-]", 1, {}};
   VtkIntField state{"state", 1, {}};
   const auto damages = facet_damage(s);
-  const auto records = records_of_faces(s.cracks);
   for (Index facet = 0; facet < s.topology.num_facets(); ++facet) {
     if (s.topology.facet_state[at(facet)] == FacetState::Bonded) continue;
     const Opening open = opening(s, facet);
@@ -62,12 +55,11 @@ VtkGrid crack_grid(const Simulation& s) {
       grid.points.push_back(x);
       displacement.values.insert(displacement.values.end(), {moved.x(), moved.y(), moved.z()});
     }
-    const Index slot = s.cracks.face_of_facet[at(facet)];
     grid.triangles.push_back({first, first + 1, first + 2});
     normal.values.push_back(open.normal);
     shear.values.push_back(open.shear);
     damage.values.push_back(damages[at(facet)]);
-    mixity.values.push_back(mode_mixity(slot == none ? FaceRecords{} : records[at(slot)]));
+    mixity.values.push_back(mode_mixity(open));
     state.values.push_back(static_cast<std::int32_t>(s.topology.facet_state[at(facet)]));
   }
   grid.point_fields = {std::move(displacement)};

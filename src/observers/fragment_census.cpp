@@ -8,18 +8,11 @@
 namespace knap {
 namespace {
 
+// Part of the work of separation that was spent in shear.
 double shear_share(const CrackState& cracks) {
-  double total = 0.0;
-  double shear = 0.0;
-  for (const Index vertex : cracks.vertices) {
-    for (const CrackRecord& record : cracks.records_of_vertex[at(vertex)]) {
-      total += record.dissipated;
-      shear += record.dissipated_shear;
-    }
-    total += cracks.losses_of_vertex[at(vertex)].cohesive;
-    shear += cracks.losses_of_vertex[at(vertex)].cohesive_shear;
-  }
-  return total > 0.0 ? std::clamp(shear / total, 0.0, 1.0) : 0.0;
+  CrackLosses losses;
+  for (const Index vertex : cracks.vertices) losses += cracks.losses_of_vertex[at(vertex)];
+  return losses.cohesive > 0.0 ? std::clamp(losses.cohesive_shear / losses.cohesive, 0.0, 1.0) : 0.0;
 }
 
 // Share of a facet's corners that have failed.
@@ -59,26 +52,13 @@ Index count_fragments(const Simulation& s, FragmentLabel label) {
   return num_fragments(fragment_labels(s.topology, s.cracks, label));
 }
 
-std::vector<FaceRecords> records_of_faces(const CrackState& cracks) {
-  std::vector<FaceRecords> records(cracks.faces.size(), FaceRecords{});
-  for (const Index vertex : cracks.vertices)
-    for (const CrackRecord& record : cracks.records_of_vertex[at(vertex)])
-      records[at(record.face)][record.corner] = &record;
-  return records;
-}
-
 std::vector<double> facet_damage(const Simulation& s) {
   std::vector<double> damage(at(s.topology.num_facets()), 0.0);
-  const auto records = records_of_faces(s.cracks);
+  for (const CrackRecord& record : s.cracks.records)
+    damage[at(s.cracks.faces[at(record.face)].facet)] += record.damage() / 3.0;
   for (Index facet = 0; facet < s.topology.num_facets(); ++facet) {
     const FacetState state = s.topology.facet_state[at(facet)];
-    if (state == FacetState::Bonded) continue;
-    if (state != FacetState::Cohesive) {
-      damage[at(facet)] = 1.0;
-      continue;
-    }
-    for (const CrackRecord* record : records[at(s.cracks.face_of_facet[at(facet)])])
-      damage[at(facet)] += (record ? record->damage() : 1.0) / 3.0;
+    if (state == FacetState::Failed || state == FacetState::HandedOver) damage[at(facet)] = 1.0;
   }
   return damage;
 }

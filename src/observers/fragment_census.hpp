@@ -17,11 +17,6 @@ CrackCensus crack_census(const Simulation& s);
 /// Number of pieces, labels taken from the state as it is now.
 Index count_fragments(const Simulation& s, FragmentLabel label);
 
-/// The records of a cracked facet by corner; nullptr where it has none.
-using FaceRecords = std::array<const CrackRecord*, 3>;
-/// By slot of CrackState::faces.
-std::vector<FaceRecords> records_of_faces(const CrackState& cracks);
-
 /// Mean damage [0, 1] of the three corners by facet: 0 when bonded, 1 when failed or handed over.
 std::vector<double> facet_damage(const Simulation& s);
 /// Largest damage of a tet's facets, by tet.

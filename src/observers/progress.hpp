@@ -13,10 +13,10 @@ struct ProgressOptions {
     Lines      ///< a line now and then
   };
   Style style = Style::Lines;
-  double end_time = 0.0;                         ///< expected [s]
-  bool end_is_expected = false;                  ///< the run may end earlier or later
+  double end_time = 0.0;                           ///< expected [s]
+  bool end_is_expected = false;                    ///< the run may end earlier or later
   std::function<void(const std::string&)> show{};  ///< takes a plain line; for a terminal, raw text to print
-  int width = 0;                                 ///< columns of the terminal, 0 = not known
+  int width = 0;                                   ///< columns of the terminal, 0 = not known
 };
 
 /// Tells how far a run is.
