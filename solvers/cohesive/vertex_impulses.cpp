@@ -142,7 +142,8 @@ Prepared prepare(CrackRecord& record, CrackFace& face, NodalState& nodes, const 
 
 void warm_start(Prepared& p, double beta) {
   const double normal_part = p.record->impulse.dot(p.normal);
-  const double kept = p.closing_speed == 0.0 ? normal_part : std::min(normal_part, 0.0);
+  // A push starts smaller by what the gap still lets through: continuous in the gap, which round-off may open.
+  const double kept = normal_part > 0.0 ? std::max(0.0, normal_part - p.effective_mass * p.closing_speed) : normal_part;
   p.record->impulse = admissible(p, beta, kept, p.record->impulse - normal_part * p.normal);
   add_impulse(p, p.record->impulse + p.secant_impulse);
 }
