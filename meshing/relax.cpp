@@ -13,6 +13,8 @@ struct Star {
   Index vertex;
   std::span<const Index> tets;
   bool on_surface;
+  Vec3 home;     // where the vertex was at first [m]
+  double reach;  // farthest it may get from there, or surface vertices would wander off in a hopeless place [m]
 };
 
 // Tries the 26 directions of a cube; keeps the best. True if the vertex moved.
@@ -28,6 +30,7 @@ bool improve_once(TetMesh& mesh, const Shape& shape, const Star& star, double st
         if (i == 0 && j == 0 && k == 0) continue;
         x = start + step * Vec3(i, j, k).normalized();
         if (star.on_surface) x = snapped_to_surface(shape, x);
+        if ((x - star.home).norm() > star.reach) continue;
         const double worst = worst_shape(mesh, star.tets);
         if (worst > best + least_gain) best = worst, best_place = x;
       }
@@ -46,6 +49,7 @@ bool relax_vertex(TetMesh& mesh, const Shape& shape, const Star& star) {
 }  // namespace
 
 void relax_worst_tets(TetMesh& mesh, const Shape& shape, double wanted) {
+  const std::vector<Vec3> homes = mesh.vertices;
   const Csr tets_of = tets_of_vertices(mesh);
   const std::vector<bool> on_surface = surface_vertices(mesh);
   const bool slides = !std::holds_alternative<Box>(shape);
@@ -57,7 +61,8 @@ void relax_worst_tets(TetMesh& mesh, const Shape& shape, double wanted) {
       for (const Index v : mesh.tets[at(t)]) {
         if (shape_quality(mesh, t) >= wanted) break;
         if (on_surface[at(v)] && !slides) continue;
-        moved |= relax_vertex(mesh, shape, {v, tets_of[v], on_surface[at(v)]});
+        const double reach = 0.5 * mean_edge_at(mesh, tets_of[v], v);
+        moved |= relax_vertex(mesh, shape, {v, tets_of[v], on_surface[at(v)], homes[at(v)], reach});
       }
   }
 }
