@@ -5,7 +5,7 @@
 
 namespace knap {
 
-/// Writes report.json; docs/report.md explains its keys. Numbers that are not known are null.
+/// Writes report.json in SI units, listed under "units". Numbers that are not known are null.
 void write_report(const std::filesystem::path& path, const Simulation& s, const RunOutcome& outcome);
 
 }  // namespace knap

@@ -19,7 +19,7 @@ constexpr double critical_step_over_crossing = 0.25;
 // Wall time of a tet in an elastic step on one core [s].
 constexpr double elastic_cost = 15e-9;
 // Mean cost of a step of a run that breaks, over that of an elastic step.
-constexpr double breaking_over_elastic = 5.0;
+constexpr double breaking_over_elastic = 20.0;
 // From this part of the critical speed on, cracks are to be expected.
 constexpr double breaking_speed_ratio = 0.7;
 // Meshes up to this size are copied to time a few steps.
@@ -44,17 +44,25 @@ bool is_expected_to_break(const SanityCard& card) {
   return card.fracture && card.normal_speed > breaking_speed_ratio * card.fracture->critical_speed;
 }
 
-// The card once its cost is known; `elastic` is the cost of an elastic step over the tets.
-SanityCard card_with_cost(SanityInput input, double elastic) {
-  input.cost_per_tet_step = elastic * (is_expected_to_break(sanity_card(input)) ? breaking_over_elastic : 1.0);
-  return sanity_card(input);
+// The latest end of a run that stops by itself. A broken one often gets there: dust keeps touching the wall.
+double latest_end(const SanityCard& card) { return 60.0 * card.crossing_time + 4.0 * card.contact_time; }
+
+// The card with end, steps and wall time to expect; `elastic` is the cost of an elastic step over the tets.
+SanityCard card_with_cost(const SanityInput& input, double elastic) {
+  SanityCard card = sanity_card(input);
+  const bool breaks = is_expected_to_break(card);
+  if (!input.end_time) card.end_time = breaks ? latest_end(card) : card.contact_time + 12.0 * card.crossing_time;
+  card.num_steps = std::ceil(card.end_time / input.time_step->dt);
+  card.input.cost_per_tet_step = elastic * (breaks ? breaking_over_elastic : 1.0);
+  card.wall_time = card.num_steps * input.num_tets * card.input.cost_per_tet_step;
+  return card;
 }
 
 SanityCard card_with_estimated_step(const RunConfig& config, SanityInput input) {
   const double crossing = input.contact_element_size / sanity_card(input).p_wave_speed;
   input.time_step = {config.run.step_safety * critical_step_over_crossing * crossing,
                      "the contact's elements; estimated"};
-  return card_with_cost(std::move(input), elastic_cost / num_threads());
+  return card_with_cost(input, elastic_cost / num_threads());
 }
 
 // The node with the shortest critical step, for the reader.
@@ -74,14 +82,18 @@ std::string step_limit(const Simulation& s, const TetMesh& mesh) {
                      1e6 * edge);
 }
 
+// Per tet and step; the median over a few steps, because other programs may use the machine too.
 double measured_elastic_cost(const Simulation& s) {
-  constexpr int steps = 24;
+  using Clock = std::chrono::steady_clock;
   Simulation copy = s;
-  step(copy);
-  const auto start = std::chrono::steady_clock::now();
-  for (int i = 0; i < steps; ++i) step(copy);
-  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return seconds / (steps * static_cast<double>(s.topology.num_tets()));
+  std::array<double, 25> seconds{};
+  for (double& duration : seconds) {
+    const auto start = Clock::now();
+    step(copy);
+    duration = std::chrono::duration<double>(Clock::now() - start).count();
+  }
+  std::nth_element(seconds.begin(), seconds.begin() + seconds.size() / 2, seconds.end());
+  return seconds[seconds.size() / 2] / s.topology.num_tets();
 }
 
 SanityInput mesh_input(const RunConfig& config, const ParticleMesh& particle) {
@@ -114,14 +126,12 @@ SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const
   SanityInput input = mesh_input(config, particle);
   input.time_step = {s.clock.dt, step_limit(s, particle.mesh)};
   const bool timed = s.topology.num_tets() <= most_tets_to_copy;
-  return card_with_cost(std::move(input), timed ? measured_elastic_cost(s) : elastic_cost / num_threads());
+  return card_with_cost(input, timed ? measured_elastic_cost(s) : elastic_cost / num_threads());
 }
 
 RunLimits run_limits(const SanityCard& card) {
   if (card.input.end_time) return {.end_time = *card.input.end_time, .automatic = false};
-  return {.end_time = 60.0 * card.crossing_time + 4.0 * card.contact_time,
-          .automatic = true,
-          .quiet_time = 10.0 * card.crossing_time};
+  return {.end_time = latest_end(card), .automatic = true, .quiet_time = 10.0 * card.crossing_time};
 }
 
 }  // namespace knap

@@ -36,8 +36,9 @@ void add_energies(std::string& text, const Simulation& s, bool utf8) {
   for (std::size_t i = 0; i < num_energy_terms; ++i) {
     const double share = s.ledger.value[i] / incident;
     if (std::abs(share) < 5e-5) continue;
-    text += fmt::format("    {:<20}{:>7.2f} %  {}\n", plain(name(static_cast<EnergyTerm>(i))), 100.0 * share,
-                        bar(share, utf8));
+    const std::string drawn = bar(share, utf8);
+    text += fmt::format("    {:<20}{:>7.2f} %{}{}\n", plain(name(static_cast<EnergyTerm>(i))), 100.0 * share,
+                        drawn.empty() ? "" : "  ", drawn);
   }
 }
 
@@ -49,7 +50,7 @@ std::string pieces_line(const BreakageMeasures& m) {
 void add_breakage(std::string& text, const RunOutcome& outcome) {
   const BreakageMeasures& m = outcome.damage.measures;
   add_line(text, "pieces", pieces_line(m));
-  add_line(text, "", fmt::format("strict label: {}", pieces_line(outcome.strict.measures)));
+  add_line(text, "by strict label", pieces_line(outcome.strict.measures));
   add_line(text, "largest piece",
            fmt::format("{:.2f} % of the mass, second {:.2f} %", 100.0 * m.largest_mass_fraction,
                        100.0 * m.second_mass_fraction));
@@ -76,8 +77,8 @@ std::string rebound_line(const RunOutcome& outcome) {
 std::string summary(const Simulation& s, const RunOutcome& outcome, const std::string& folder, bool utf8) {
   const Session& session = outcome.session;
   std::string text =
-      fmt::format("\n{}: {} ({}, {} at {:.4g} us)\n", outcome.case_name, name(outcome.damage.measures.breakage_class),
-                  status(session.stop_reason), name(session.stop_reason), 1e6 * s.clock.time());
+      fmt::format("{}: {}, stopped at {:.4g} us ({})\n", outcome.case_name,
+                  name(outcome.damage.measures.breakage_class), 1e6 * s.clock.time(), name(session.stop_reason));
   add_breakage(text, outcome);
   add_line(text, "rebound", rebound_line(outcome));
   add_line(text, "wall force", fmt::format("{:.4g} N at most", s.totals.max_wall_force));

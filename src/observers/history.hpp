@@ -19,7 +19,7 @@ class History : public Observer {
   void add_last_row(const Simulation& s);
 
  private:
-  bool is_regular(std::int64_t step) const { return step == 0 || step % interval_ == 1; }
+  bool is_regular(std::int64_t step) const { return step == 0 || (step > 1 && step % interval_ == 1); }
   void add_row(const Simulation& s);
 
   std::filesystem::path path_;

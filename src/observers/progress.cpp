@@ -23,12 +23,12 @@ std::string duration(double seconds) {
 
 std::string progress_line(const ProgressNumbers& n) {
   const double share = n.end_time > 0.0 ? std::min(1.0, n.time / n.end_time) : 0.0;
-  std::string line = fmt::format("{:8.3f} / {}{:.2f} us {:3.0f} %", 1e6 * n.time, n.end_is_expected ? "~" : "",
+  std::string line = fmt::format("{:6.2f} / {}{:.1f} us {:3.0f} %", 1e6 * n.time, n.end_is_expected ? "~" : "",
                                  1e6 * n.end_time, 100.0 * share);
-  if (n.rate > 0.0) line += fmt::format(" | {:.0f} steps/s", n.rate);
-  line += fmt::format(" | cracks {:.3f} mm2 | {} fragment{} | ledger {:.3f} %", 1e6 * n.cracked_area, n.fragments,
-                      n.fragments == 1 ? "" : "s", 100.0 * n.closure_error);
   if (n.time_left >= 0.0) line += fmt::format(" | {} left", duration(n.time_left));
+  if (n.rate > 0.0) line += fmt::format(" | {:.0f} steps/s", n.rate);
+  line += fmt::format(" | cracks {:.2f} mm2 | {} fragment{} | ledger {:.3f} %", 1e6 * n.cracked_area, n.fragments,
+                      n.fragments == 1 ? "" : "s", 100.0 * n.closure_error);
   return line;
 }
 

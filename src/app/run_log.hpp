@@ -1,0 +1,31 @@
+#pragma once
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+namespace knap {
+
+/// What a run says while it goes: to the terminal (only warnings and errors when quiet) and to its log file.
+class RunLog {
+ public:
+  RunLog(const std::filesystem::path& file, bool quiet);
+
+  void info(const std::string& text);
+  void warn(const std::string& text);
+  void error(const std::string& text);
+  /// To the file alone.
+  void note(const std::string& text);
+  /// Called before anything is printed: makes room where a progress line stands.
+  void before_printing(std::function<void()> action) { before_printing_ = std::move(action); }
+
+ private:
+  void print(spdlog::level::level_enum level, const std::string& text);
+
+  spdlog::logger file_;
+  spdlog::logger terminal_;
+  std::function<void()> before_printing_;
+};
+
+}  // namespace knap

@@ -1,0 +1,39 @@
+#pragma once
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "simulation/make_simulation.hpp"
+#include "simulation/step.hpp"
+#include "tests/support/bar_mesh.hpp"
+
+namespace knap {
+
+/// A box of 384 tets that breaks on the wall after some hundred steps.
+inline Simulation breaking_box() {
+  TetMesh mesh = bar_mesh({4, 4, 4}, 0.25e-3);
+  for (Vec3& x : mesh.vertices) x = Vec3(x.x(), x.y(), x.z() + 1e-7);
+  SimulationOptions options{
+      .young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0, .fracture = std::nullopt};
+  options.fracture = FractureOptions{.law = {}, .strength = 8.34e6, .fracture_energy = 8.6};
+  options.wall = Plane{.friction = 0.3};
+  options.velocity = Vec3(5.0, 0.0, -30.0);
+  return make_simulation(options, mesh);
+}
+
+inline void advance(Simulation& s, int steps) {
+  for (int i = 0; i < steps; ++i) ASSERT_EQ(step(s), StepStatus::Ok);
+}
+
+/// A test with an empty folder of its own.
+class ObserverTest : public testing::Test {
+ protected:
+  ObserverTest() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "knap_observers_XXXXXX").string();
+    folder = mkdtemp(pattern.data());
+  }
+  ~ObserverTest() override { std::filesystem::remove_all(folder); }
+  std::filesystem::path folder;
+};
+
+}  // namespace knap
