@@ -1,6 +1,7 @@
 #include "contact/broad_phase.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include "contact/free_faces.hpp"
@@ -10,39 +11,53 @@ namespace knap {
 namespace {
 
 constexpr Index tets_per_block = 512;
-constexpr double max_cells = 4e6;
 
-/// Points sorted into the cells of a regular grid.
+using Cell = Eigen::Vector3i;
+
+/// Points sorted into the cells of an unbounded regular grid, the cells hashed into buckets: fragments that fly far
+/// cost nothing.
 struct PointGrid {
-  Vec3 origin = Vec3::Zero();
-  double cell = 1.0;
-  Eigen::Vector3i size = Eigen::Vector3i::Ones();
-  Csr points_of_cell;
+  double cell_size = 1.0;
+  std::uint32_t mask = 0;
+  std::vector<Cell> cell_of_point;
+  Csr points_of_bucket;
 
-  Eigen::Vector3i cell_of(const Vec3& p) const {
-    const Vec3 scaled = (p - origin) / cell;
-    Eigen::Vector3i c;
-    for (int k = 0; k < 3; ++k) c[k] = static_cast<int>(std::clamp(std::floor(scaled[k]), 0.0, size[k] - 1.0));
-    return c;
+  Cell cell(const Vec3& p) const {
+    // Beyond a billion cells all is one cell: slow there, but right.
+    return (p / cell_size).array().floor().max(-1e9).min(1e9).cast<int>();
   }
-  Index index(int i, int j, int k) const { return (k * size.y() + j) * size.x() + i; }
+  Index bucket(const Cell& c) const {
+    const auto part = [](int i, std::uint32_t prime) { return static_cast<std::uint32_t>(i) * prime; };
+    return static_cast<Index>((part(c.x(), 73856093u) ^ part(c.y(), 19349663u) ^ part(c.z(), 83492791u)) & mask);
+  }
 };
 
-PointGrid make_grid(const std::vector<Vec3>& positions, double cell) {
+PointGrid make_grid(const std::vector<Vec3>& positions, double cell_size) {
   PointGrid grid;
-  Eigen::AlignedBox3d box;
-  for (const Vec3& p : positions) box.extend(p);
-  grid.origin = box.min();
-  grid.cell = cell;
-  while ((box.sizes() / grid.cell).array().ceil().max(1.0).prod() > max_cells) grid.cell *= 1.5;
-  for (int k = 0; k < 3; ++k) grid.size[k] = std::max(1, static_cast<int>(std::ceil(box.sizes()[k] / grid.cell)));
-  std::vector<Index> cell_of_point(positions.size());
+  grid.cell_size = cell_size;
+  const std::uint32_t buckets = std::bit_ceil(static_cast<std::uint32_t>(2 * positions.size() + 1));
+  grid.mask = buckets - 1;
+  std::vector<Index> bucket_of_point(positions.size());
+  grid.cell_of_point.resize(positions.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {
-    const Eigen::Vector3i c = grid.cell_of(positions[i]);
-    cell_of_point[i] = grid.index(c.x(), c.y(), c.z());
+    grid.cell_of_point[i] = grid.cell(positions[i]);
+    bucket_of_point[i] = grid.bucket(grid.cell_of_point[i]);
   }
-  grid.points_of_cell = make_csr(grid.size.prod(), cell_of_point);
+  grid.points_of_bucket = make_csr(static_cast<Index>(buckets), bucket_of_point);
   return grid;
+}
+
+/// Calls visit(point) for the points in the cells that a box touches.
+template <class Visit>
+void visit_points(const PointGrid& grid, const Eigen::AlignedBox3d& box, Visit&& visit) {
+  const Cell low = grid.cell(box.min()), high = grid.cell(box.max());
+  for (int k = low.z(); k <= high.z(); ++k)
+    for (int j = low.y(); j <= high.y(); ++j)
+      for (int i = low.x(); i <= high.x(); ++i) {
+        const Cell cell(i, j, k);
+        for (const Index p : grid.points_of_bucket[grid.bucket(cell)])
+          if (grid.cell_of_point[at(p)] == cell) visit(p);
+      }
 }
 
 /// The outward face planes of a tet, to bound distances from below.
@@ -126,22 +141,18 @@ void rebuild_candidates(ContactState& contact, const Topology& topology, std::sp
     const Index end = std::min(to_index(tets.size()), (block + 1) * tets_per_block);
     for (Index k = block * tets_per_block; k < end; ++k) {
       const Index tet = tets[at(k)];
-      const TetCorners& nodes = topology.tet_nodes[at(tet)];
       Eigen::AlignedBox3d box;
-      for (const Index node : nodes) box.extend(Vec3(xyz(x[at(node)])));
-      const Eigen::Vector3i low = grid.cell_of(box.min() - Vec3::Constant(contact.skin));
-      const Eigen::Vector3i high = grid.cell_of(box.max() + Vec3::Constant(contact.skin));
-      const TetPlanes planes(nodes, x);
-      for (int c = low.z(); c <= high.z(); ++c)
-        for (int b = low.y(); b <= high.y(); ++b)
-          for (int a = low.x(); a <= high.x(); ++a)
-            for (const Index p : grid.points_of_cell[grid.index(a, b, c)]) {
-              const ContactPoint& point = contact.points[at(p)];
-              if (point.fragment == contact.fragment_of_tet[at(tet)]) continue;
-              const double separation = planes.distance_bound(positions[at(p)]);
-              if (separation > contact.skin || joined_by_records(point, tet, topology, has_records)) continue;
-              found[at(block)].push_back({p, tet, separation});
-            }
+      for (const Index node : topology.tet_nodes[at(tet)]) box.extend(Vec3(xyz(x[at(node)])));
+      box.min().array() -= contact.skin;
+      box.max().array() += contact.skin;
+      const TetPlanes planes(topology.tet_nodes[at(tet)], x);
+      visit_points(grid, box, [&](Index p) {
+        const ContactPoint& point = contact.points[at(p)];
+        if (point.fragment == contact.fragment_of_tet[at(tet)] || !box.contains(positions[at(p)])) return;
+        const double separation = planes.distance_bound(positions[at(p)]);
+        if (separation > contact.skin || joined_by_records(point, tet, topology, has_records)) return;
+        found[at(block)].push_back({p, tet, separation});
+      });
     }
   });
   for (const auto& part : found) contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());

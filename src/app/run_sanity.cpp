@@ -45,7 +45,7 @@ bool is_expected_to_break(const SanityCard& card) {
 }
 
 // The latest end of a run that stops by itself. A broken one often gets there: dust keeps touching the wall.
-double latest_end(const SanityCard& card) { return 60.0 * card.crossing_time + 4.0 * card.contact_time; }
+double latest_end(const SanityCard& card) { return 50.0 * card.crossing_time; }
 
 // The card with end, steps and wall time to expect; `elastic` is the cost of an elastic step over the tets.
 SanityCard card_with_cost(const SanityInput& input, double elastic) {

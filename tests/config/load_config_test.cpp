@@ -39,14 +39,14 @@ TEST(LoadConfig, FillsEveryDefault) {
 
 TEST(LoadConfig, DerivesTheMeshFromTheParticle) {
   const MeshConfig sphere = config_of(shortest).mesh;
-  EXPECT_EQ(sphere.element_size, 121e-6);  // (6 sqrt2 V/20000)^(1/3) = 121.1 um, three digits
+  EXPECT_EQ(sphere.element_size, 132e-6);  // (10.9 V/20000)^(1/3) = 131.7 um, three digits
   EXPECT_EQ(sphere.contact_element_size, sphere.element_size);
   EXPECT_EQ(sphere.contact_extent, 0.0005);
   const RunConfig box = config_of(
       "[particle]\nshape = \"box\"\nlengths = [\"1 mm\", 0.002, \"0.3 cm\"]\n[material]\npreset = \"plaster\"\n"
       "[impact]\nspeed = 3\n");
   EXPECT_EQ(box.particle.lengths, Vec3(0.001, 0.002, 0.003));
-  EXPECT_NEAR(box.mesh.element_size, std::cbrt(6.0 * std::numbers::sqrt2 * 6e-9 / 20000.0), 5e-7);
+  EXPECT_NEAR(box.mesh.element_size, std::cbrt(10.9 * 6e-9 / 20000.0), 5e-7);
   EXPECT_EQ(box.mesh.contact_extent, 0.00025);
 }
 
