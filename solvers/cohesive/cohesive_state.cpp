@@ -52,11 +52,13 @@ void add_cracks(CrackState& cracks, std::span<const CrackFace> faces, std::span<
 }
 
 void drop_ended_faces(CrackState& cracks) {
+  if (std::none_of(cracks.faces.begin(), cracks.faces.end(), [](const CrackFace& face) { return face.has_ended(); }))
+    return;
   std::vector<Index> new_slot(cracks.faces.size(), none);
   Index kept_faces = 0;
   for (std::size_t slot = 0; slot < cracks.faces.size(); ++slot) {
     const CrackFace face = cracks.faces[slot];
-    if (face.ended) {
+    if (face.has_ended()) {
       cracks.face_of_facet[at(face.facet)] = none;
       continue;
     }
@@ -79,6 +81,7 @@ void drop_ended_faces(CrackState& cracks) {
   cracks.record_offsets.back() = kept;
   cracks.records.resize(at(kept));
   list_vertices(cracks);
+  group_records(cracks);
 }
 
 }  // namespace knap

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "cohesive/linear_softening.hpp"
+#include "cohesive/record_groups.hpp"
 #include "core/topology.hpp"
 
 namespace knap {
@@ -14,38 +15,50 @@ enum class RecordRegime : std::uint8_t {
   Failed      ///< contact only
 };
 
-/// One corner of a cracked facet: joins node a (minus side) to node b (plus side).
-struct CrackRecord {
+/// One corner of a cracked facet: joins node a (minus side) to node b (plus side). One cache line; the vector kernels
+/// read it as rows of four doubles.
+struct alignas(64) CrackRecord {
   Vec3 impulse = Vec3::Zero();  ///< on b, the opposite on a, without the secant force [N s]
-  double tributary_area = 0.0;  ///< a third of the facet [m2]
-  double s0 = 0.0;              ///< effective traction at insertion [Pa]
-  double delta_c = 0.0;         ///< effective opening at full failure [m]
   double d_max = 0.0;           ///< largest effective opening so far [m]
+  double strength = 0.0;        ///< effective traction at insertion s0 times the third of the facet [N]
+  double delta_c = 1.0;         ///< effective opening at full failure [m]
   Index face = none;            ///< slot of its facet in CrackState::faces
   Index node_a = none;
   Index node_b = none;
   std::uint8_t corner = 0;  ///< 0..2 within the facet
   RecordRegime regime = RecordRegime::Virgin;
+  std::uint8_t local_a = 0;  ///< number of node a among the nodes of the vertex, see RecordGroups
+  std::uint8_t local_b = 0;
 
   double damage() const { return std::min(1.0, d_max / delta_c); }
   /// Both sides still share their node: nothing to do until the crack goes round it.
   bool is_closed_tip() const { return node_a == node_b; }
 };
 
-/// A cracked facet as long as its two faces meet as twins. What every step reads of it is in its first cache line.
+/// What becomes of a cracked facet in a step: the fourth entry of its normal, where the vector kernels find it.
+namespace face_action {
+inline constexpr double none = 0.0;
+inline constexpr double rotates = 1.0;            ///< gives angular momentum back
+inline constexpr double ends = -1.0;              ///< handed over in this step: no impulses any more
+inline constexpr double ends_and_rotates = -2.0;  ///< both
+}  // namespace face_action
+
+/// A cracked facet as long as its two faces meet as twins. By cache lines: what the impulses of every step touch, what
+/// the faces' own sweep reads, the rotation.
 struct alignas(64) CrackFace {
-  Vec3 normal = Vec3::Zero();    ///< of the mid-surface, minus to plus
-  Vec3 rotation = Vec3::Zero();  ///< that gives angular momentum back in this step [rad/s]
-  bool ended = false;            ///< handed over in this step: no impulses any more
-  bool rotates = false;          ///< rotation is not zero
-  Vec3 centre = Vec3::Zero();    ///< mass centre of the six nodes, when rotation is not zero [m]
-  std::array<Vec3, 3> couple{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< jump x impulse of each corner, summed
+  Vec4 normal = Vec4::Zero();  ///< of the mid-surface, minus to plus; the fourth entry is a face_action
+  std::array<Vec4, 3> couple{Vec4::Zero(), Vec4::Zero(), Vec4::Zero()};  ///< jump x impulse of each corner, summed
                                                                          ///< since the last rotation [N m s]
-  Vec3 carried_couple = Vec3::Zero();  ///< what the last rotation left to the next [N m s]
-  double area = 0.0;                   ///< reference [m2]
-  Index facet = none;
+  Vec3 carried_couple = Vec3::Zero();           ///< what the last rotation left to the next [N m s]
+  double area = 0.0;                            ///< reference [m2]
   std::array<std::array<Index, 2>, 3> nodes{};  ///< current nodes of the three corners (minus, plus)
-  std::array<std::uint8_t, 3> failed{};         ///< per corner
+  Index facet = none;
+  std::array<std::uint8_t, 3> failed{};  ///< per corner
+  Vec4 rotation = Vec4::Zero();          ///< that gives angular momentum back in this step, if it rotates [rad/s]
+  Vec4 centre = Vec4::Zero();            ///< mass centre of the six nodes, if it rotates [m]
+
+  bool rotates() const { return normal[3] > 0.0 || normal[3] == face_action::ends_and_rotates; }
+  bool has_ended() const { return normal[3] < 0.0; }
 };
 
 /// Energy spent at the cracks of one vertex [J].
@@ -74,6 +87,7 @@ struct CrackState {
   std::vector<CrackLosses> losses_of_vertex;       ///< up to the last step
   std::vector<CrackLosses> step_losses_of_vertex;  ///< of this step, may still be corrected
   std::vector<Index> vertices;                     ///< those with records, ascending
+  RecordGroups groups;                             ///< derived: the vertices as the vector kernels take them
   double cracked_area = 0.0;                       ///< of all facets inserted so far [m2]
   std::int64_t last_damage_step = 0;               ///< last step with an insertion or growing damage
 

@@ -5,6 +5,7 @@
 namespace knap {
 namespace {
 
+// Faces near each other have their turn together, so that few vectors of records hold one that rotates.
 constexpr Index faces_per_block = 256;
 // Nearly collinear nodes have next to no inertia about their line. This share of the mean inertia is added to it; what
 // the rotation then does not give back, it carries to the next.
@@ -28,10 +29,14 @@ Mat3 inertia_about(const CrackFace& face, const NodalState& nodes, const Vec3& c
   return inertia;
 }
 
+Vec3 pending_couple(const CrackFace& face) {
+  return xyz(face.couple[0]) + xyz(face.couple[1]) + xyz(face.couple[2]) + face.carried_couple;
+}
+
 // Returns whether there is anything to give back.
 bool update_rotation(CrackFace& face, const NodalState& nodes) {
-  const Vec3 couple = face.couple[0] + face.couple[1] + face.couple[2] + face.carried_couple;
-  face.couple.fill(Vec3::Zero());
+  const Vec3 couple = pending_couple(face);
+  face.couple.fill(Vec4::Zero());
   face.carried_couple = couple;
   if (couple.isZero(0.0)) return false;
   double mass = 0.0;
@@ -41,15 +46,17 @@ bool update_rotation(CrackFace& face, const NodalState& nodes) {
       mass += nodes.mass[at(node)];
       first += nodes.mass[at(node)] * xyz(nodes.x[at(node)]);
     }
-  face.centre = first / mass;
-  const Mat3 inertia = inertia_about(face, nodes, face.centre);
+  const Vec3 centre = first / mass;
+  const Mat3 inertia = inertia_about(face, nodes, centre);
   const double shift = inertia_regularisation * inertia.trace() / 3.0;
   const Mat3 regular = inertia + shift * Mat3::Identity();
   const double determinant = regular.determinant();
   if (!(determinant > 0.0)) return false;  // all six nodes in one point: keep the couple
   const Vec3 a = regular.col(0), b = regular.col(1), c = regular.col(2);
-  face.rotation = -Vec3(b.cross(c).dot(couple), c.cross(a).dot(couple), a.cross(b).dot(couple)) / determinant;
-  face.carried_couple += inertia * face.rotation;
+  const Vec3 rotation = -Vec3(b.cross(c).dot(couple), c.cross(a).dot(couple), a.cross(b).dot(couple)) / determinant;
+  face.carried_couple += inertia * rotation;
+  face.rotation = padded(rotation);
+  face.centre = padded(centre);
   return true;
 }
 
@@ -60,7 +67,7 @@ void update_normal(CrackFace& face, std::span<const Vec4> x) {
   const Vec3 a = mid(0);
   const Vec3 area = (mid(1) - a).cross(mid(2) - a);
   const double norm = area.norm();
-  if (norm > 0.0) face.normal = area / norm;
+  if (norm > 0.0) xyz(face.normal) = area / norm;
 }
 
 void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState& nodes, Index turn) {
@@ -69,7 +76,8 @@ void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState
       [&](Index slot) {
         CrackFace& face = cracks.faces[at(slot)];
         update_normal(face, nodes.x);
-        face.rotates = (turn == all_turns || slot % num_turns == turn) && update_rotation(face, nodes);
+        const bool has_turn = turn == all_turns || (slot / faces_per_block) % num_turns == turn;
+        face.normal[3] = has_turn && update_rotation(face, nodes) ? face_action::rotates : face_action::none;
         if (face.failed[0] && face.failed[1] && face.failed[2])
           topology.facet_state[at(face.facet)] = FacetState::Failed;
       },
@@ -78,8 +86,7 @@ void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState
 
 Vec3 pending_angular_momentum(const CrackState& cracks) {
   Vec3 sum = Vec3::Zero();
-  for (const CrackFace& face : cracks.faces)
-    sum += face.couple[0] + face.couple[1] + face.couple[2] + face.carried_couple;
+  for (const CrackFace& face : cracks.faces) sum += pending_couple(face);
   return sum;
 }
 

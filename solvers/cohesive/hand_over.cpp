@@ -29,7 +29,7 @@ Index hand_over_faces(CrackState& cracks, Topology& topology, std::span<const Ve
     const bool one_fragment = fragment_of_tet[at(minus)] == fragment_of_tet[at(plus)];
     if (!has_parted(face, x, one_fragment, options)) continue;
     topology.facet_state[at(face.facet)] = FacetState::HandedOver;
-    face.ended = true;
+    face.normal[3] = face.rotates() ? face_action::ends_and_rotates : face_action::ends;
     ++count;
   }
   return count;
@@ -39,7 +39,7 @@ std::vector<std::uint8_t> vertices_with_records(const CrackState& cracks) {
   std::vector<std::uint8_t> has_records(cracks.losses_of_vertex.size(), 0);
   for (const Index vertex : cracks.vertices)
     for (const CrackRecord& record : cracks.records_of_vertex(vertex))
-      if (!cracks.faces[at(record.face)].ended) has_records[at(vertex)] = 1;
+      if (!cracks.faces[at(record.face)].has_ended()) has_records[at(vertex)] = 1;
   return has_records;
 }
 

@@ -53,8 +53,8 @@ void refresh_records(CrackState& cracks, const Topology& topology, Index vertex,
     face.nodes[record.corner] = {record.node_a, record.node_b};
     if (was_active || record.node_a == record.node_b) continue;
     const auto& [minus, plus] = topology.facet_tets[at(face.facet)];
-    const Vec3 t = facet_traction(options.stress[at(minus)], options.stress[at(plus)], face.normal);
-    record.impulse = -options.dt * record.tributary_area * t;
+    const Vec3 t = facet_traction(options.stress[at(minus)], options.stress[at(plus)], xyz(face.normal));
+    record.impulse = -options.dt * face.area / 3.0 * t;
   }
 }
 
@@ -79,9 +79,8 @@ void open_facets(CrackState& cracks, Topology& topology, const NodalState& nodes
     cracks.cracked_area += area;
     for (int k = 0; k < 3; ++k) {
       CrackRecord record;
-      record.tributary_area = area / 3.0;
-      record.s0 = overloaded.effective;
-      record.delta_c = 2.0 * options.fracture_energy[at(facet)] / record.s0;
+      record.strength = area / 3.0 * overloaded.effective;
+      record.delta_c = 2.0 * options.fracture_energy[at(facet)] / overloaded.effective;
       record.face = to_index(faces.size());
       record.corner = static_cast<std::uint8_t>(k);
       records.push_back({topology.facet_vertex(facet, k), record});
@@ -142,6 +141,7 @@ InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState
     change.changed_tets.insert(change.changed_tets.end(), changed.begin(), changed.end());
   }
   for (const Index vertex : change.split_vertices) refresh_records(cracks, topology, vertex, options);
+  group_records(cracks);
   sort_unique(change.changed_tets);
   return change;
 }

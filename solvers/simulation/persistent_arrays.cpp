@@ -22,11 +22,11 @@ template <class Struct, class Member>
 Field(const char*, Member Struct::*) -> Field<Struct, Member>;
 
 constexpr auto fields(const CrackRecord*) {
-  return std::tuple{Field{"impulse", &CrackRecord::impulse}, Field{"tributary_area", &CrackRecord::tributary_area},
-                    Field{"s0", &CrackRecord::s0},           Field{"delta_c", &CrackRecord::delta_c},
-                    Field{"d_max", &CrackRecord::d_max},     Field{"face", &CrackRecord::face},
-                    Field{"node_a", &CrackRecord::node_a},   Field{"node_b", &CrackRecord::node_b},
-                    Field{"corner", &CrackRecord::corner},   Field{"regime", &CrackRecord::regime}};
+  return std::tuple{Field{"impulse", &CrackRecord::impulse}, Field{"strength", &CrackRecord::strength},
+                    Field{"delta_c", &CrackRecord::delta_c}, Field{"d_max", &CrackRecord::d_max},
+                    Field{"face", &CrackRecord::face},       Field{"node_a", &CrackRecord::node_a},
+                    Field{"node_b", &CrackRecord::node_b},   Field{"corner", &CrackRecord::corner},
+                    Field{"regime", &CrackRecord::regime}};
 }
 constexpr auto fields(const CrackFace*) {
   return std::tuple{Field{"facet", &CrackFace::facet},
@@ -34,9 +34,6 @@ constexpr auto fields(const CrackFace*) {
                     Field{"normal", &CrackFace::normal},
                     Field{"couple", &CrackFace::couple},
                     Field{"carried_couple", &CrackFace::carried_couple},
-                    Field{"centre", &CrackFace::centre},
-                    Field{"rotation", &CrackFace::rotation},
-                    Field{"rotates", &CrackFace::rotates},
                     Field{"area", &CrackFace::area},
                     Field{"failed", &CrackFace::failed}};
 }
@@ -258,6 +255,7 @@ void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
   s.contact.fragments = static_cast<Index>(scalars.at(3));
   for (Index slot = 0; slot < to_index(s.cracks.faces.size()); ++slot)
     s.cracks.face_of_facet[at(s.cracks.faces[at(slot)].facet)] = slot;
+  group_records(s.cracks);
   std::vector<Index> all_tets(at(s.topology.num_tets()));
   std::iota(all_tets.begin(), all_tets.end(), 0);
   refresh_elastic_force(s.elastic, s.topology, all_tets);

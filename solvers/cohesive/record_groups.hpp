@@ -1,0 +1,36 @@
+#pragma once
+// The vector kernels solve eight vertices at a time, one in each lane, record by record. So that lanes do not idle,
+// vertices near each other in memory are grouped by their number of records. A vertex's own result does not depend on
+// its group.
+#include "core/types.hpp"
+
+namespace knap {
+
+inline constexpr Index group_lanes = 8;
+template <class T>
+using PerLane = std::array<T, std::size_t{group_lanes}>;
+
+/// Eight vertices with about as many records each.
+struct RecordGroup {
+  PerLane<Index> vertex{};        ///< none in lanes without one
+  PerLane<Index> first_record{};  ///< in CrackState::records
+  PerLane<Index> num_records{};
+  Index max_records = 0;
+  Index first_nodes = 0;  ///< in RecordGroups::nodes
+  Index num_nodes = 0;    ///< largest number of nodes of one of the vertices
+};
+
+/// Derived from the records whenever these are added, removed or get other nodes.
+struct RecordGroups {
+  std::vector<RecordGroup> groups;
+  std::vector<PerLane<Index>> nodes;   ///< by group and local number, none where a vertex has fewer
+  std::vector<Index> group_of_vertex;  ///< none = without records
+  Index max_records = 0;               ///< of a vertex
+  Index max_nodes = 0;                 ///< of a vertex
+};
+
+struct CrackState;
+/// Numbers the nodes of every vertex (CrackRecord::local_a, local_b) and forms the groups.
+void group_records(CrackState& cracks);
+
+}  // namespace knap

@@ -1,0 +1,589 @@
+#include "cohesive/vertex_kernel.hpp"
+
+#include <cstddef>
+
+// AVX-512, AVX2, and plain C++ for anything older; the first two give the same bits.
+#include <hwy/detect_targets.h>
+#undef HWY_DISABLED_TARGETS
+#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSE4 | HWY_SSSE3)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "cohesive/vertex_kernel.cpp"
+#include <hwy/foreach_target.h>
+//
+#include <hwy/highway.h>
+
+#include "cohesive/lane_rows-inl.hpp"
+
+#ifndef KNAP_COHESIVE_VERTEX_KERNEL_ONCE
+#define KNAP_COHESIVE_VERTEX_KERNEL_ONCE
+namespace knap {
+// The rows of four doubles that the kernels read and write.
+static_assert(offsetof(CrackRecord, d_max) == 24 && offsetof(CrackRecord, strength) == 32);
+static_assert(offsetof(CrackRecord, delta_c) == 40 && offsetof(CrackRecord, node_b) == 56);
+static_assert(offsetof(CrackRecord, regime) == 61 && offsetof(CrackRecord, local_a) == 62 && sizeof(CrackRecord) == 64);
+static_assert(offsetof(CrackFace, normal) == 0 && offsetof(CrackFace, couple) == 32 && sizeof(CrackFace) == 256);
+static_assert(offsetof(CrackFace, rotation) == 192 && offsetof(CrackFace, centre) == 224);
+
+inline constexpr Index doubles_per_node = sizeof(NodeRow) / sizeof(double);
+inline constexpr Index local_v = offsetof(NodeRow, v) / sizeof(double);
+inline constexpr Index local_v_before = offsetof(NodeRow, v_before) / sizeof(double);
+}  // namespace knap
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace knap {
+namespace HWY_NAMESPACE {
+
+// The fixed order of every sum below, fused multiply-adds included, is what makes the bits independent of the width.
+HWY_INLINE V zero() { return hn::Zero(Tag()); }
+HWY_INLINE V number(double value) { return hn::Set(Tag(), value); }
+HWY_INLINE V dot(const Vec3V& a, const Vec3V& b) {
+  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
+}
+HWY_INLINE Vec3V cross(const Vec3V& a, const Vec3V& b) {
+  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
+          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
+}
+HWY_INLINE Vec3V scaled(V s, const Vec3V& a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
+// s a + b
+HWY_INLINE Vec3V scaled_sum(V s, const Vec3V& a, const Vec3V& b) {
+  return {hn::MulAdd(s, a.x, b.x), hn::MulAdd(s, a.y, b.y), hn::MulAdd(s, a.z, b.z)};
+}
+HWY_INLINE Vec3V sum(const Vec3V& a, const Vec3V& b) {
+  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
+}
+HWY_INLINE Vec3V difference(const Vec3V& a, const Vec3V& b) {
+  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
+}
+HWY_INLINE Vec3V where(M mask, const Vec3V& a) {
+  return {hn::IfThenElseZero(mask, a.x), hn::IfThenElseZero(mask, a.y), hn::IfThenElseZero(mask, a.z)};
+}
+HWY_INLINE Rows rows(const Vec3V& a) { return rows(Columns{a.x, a.y, a.z, zero()}); }
+
+HWY_INLINE V load(const LaneValues& values, Index lane0) { return hn::LoadU(Tag(), values.data() + lane0); }
+HWY_INLINE void store(V v, LaneValues& values, Index lane0) { hn::StoreU(v, Tag(), values.data() + lane0); }
+HWY_INLINE Vec3V load(const LaneVector& values, Index lane0) {
+  return {load(values[0], lane0), load(values[1], lane0), load(values[2], lane0)};
+}
+HWY_INLINE void store(const Vec3V& v, LaneVector& values, Index lane0) {
+  store(v.x, values[0], lane0);
+  store(v.y, values[1], lane0);
+  store(v.z, values[2], lane0);
+}
+
+/// One vector of lanes of a group.
+struct Lanes {
+  const ImpulseView& view;
+  const ImpulseCoefficients& k;
+  const RecordGroup& group;
+  ImpulseWorkspace& workspace;
+  Index lane0;
+
+  double* local() const { return workspace.nodes.data()->x[0].data() + 4 * lane0; }
+};
+
+/// What impulses and damage spend, lane by lane.
+struct Spent {
+  V cohesive, cohesive_shear;  // damage, for good
+  V separation, closure, friction;
+  M damaged;
+};
+HWY_INLINE Spent nothing_spent() { return {zero(), zero(), zero(), zero(), zero(), hn::Gt(zero(), zero())}; }
+
+HWY_INLINE auto local_rows(const Lanes& l, const PerLane<std::uint16_t>& offsets, Index field) {
+  return [base = l.local() + field, o = offsets.data() + l.lane0](Index lane)
+             HWY_ATTR { return base + o[lane] + 4 * lane; };
+}
+
+// Nodes into the local rows.
+HWY_INLINE void load_nodes(const Lanes& l) {
+  for (Index n = 0; n < l.group.num_nodes; ++n) {
+    const Index* nodes = l.view.groups->nodes[at(l.group.first_nodes + n)].data() + l.lane0;
+    const auto global = [&](const double* base) HWY_ATTR {
+      return [=, idle = l.workspace.idle_node.data()](Index lane)
+                 HWY_ATTR { return nodes[lane] == none ? idle : base + 4 * std::ptrdiff_t{nodes[lane]}; };
+    };
+    double* local = l.local() + n * doubles_per_node;
+    const auto to = [&](Index field) HWY_ATTR { return [=](Index lane) HWY_ATTR { return local + field + 4 * lane; }; };
+    HWY_ALIGN double mass[width];
+    for (Index lane = 0; lane < width; ++lane) mass[lane] = nodes[lane] == none ? 1.0 : l.view.mass[nodes[lane]];
+    Columns x = columns(load_rows(global(l.view.x)));
+    x.w = hn::Div(number(1.0), hn::Load(Tag(), mass));
+    store_rows(rows(x), to(0));
+    store_rows(load_rows(global(l.view.v)), to(local_v));
+    store_rows(load_rows(global(l.view.v_before)), to(local_v_before));
+  }
+}
+
+HWY_INLINE void store_velocities(const Lanes& l) {
+  for (Index n = 0; n < l.group.num_nodes; ++n) {
+    const Index* nodes = l.view.groups->nodes[at(l.group.first_nodes + n)].data() + l.lane0;
+    const double* local = l.local() + n * doubles_per_node + local_v;
+    store_rows(load_rows([=](Index lane) HWY_ATTR { return local + 4 * lane; }),
+               [&, idle = l.workspace.idle_node.data()](Index lane)
+                   HWY_ATTR { return nodes[lane] == none ? idle : l.view.v + 4 * std::ptrdiff_t{nodes[lane]}; });
+  }
+}
+
+// v_before becomes the mean velocity of the step.
+HWY_INLINE void average_velocities(const Lanes& l) {
+  for (Index n = 0; n < l.group.num_nodes; ++n) {
+    double* local = l.local() + n * doubles_per_node;
+    for (Index i = 0; i < 4 * width; i += width) {
+      const V mean = hn::Mul(
+          number(0.5), hn::Add(hn::LoadU(Tag(), local + local_v + i), hn::LoadU(Tag(), local + local_v_before + i)));
+      hn::StoreU(mean, Tag(), local + local_v_before + i);
+    }
+  }
+}
+
+/// The k-th records of the lanes as they lie in memory.
+struct Gathered {
+  Vec3V impulse, normal;
+  V d_max, strength, delta_c, action;
+  M open, virgin, failed;
+};
+
+HWY_INLINE Gathered gather(const Lanes& l, Index number_in_vertex, RecordRow& row) {
+  const double* record_rows[width];
+  const double* face_rows[width];
+  ImpulseWorkspace& w = l.workspace;
+  for (Index lane = 0; lane < width; ++lane) {
+    const std::size_t i = at(l.lane0 + lane);
+    const bool idle = number_in_vertex >= l.group.num_records[i];
+    CrackRecord* record = idle ? &w.idle_record : l.view.records + l.group.first_record[i] + number_in_vertex;
+    CrackFace* face = idle ? &w.idle_face : l.view.faces + record->face;
+    row.record[i] = record;
+    row.couple[i] = face->couple[record->corner].data();
+    row.a[i] = static_cast<std::uint16_t>(record->local_a * doubles_per_node);
+    row.b[i] = static_cast<std::uint16_t>(record->local_b * doubles_per_node);
+    record_rows[lane] = record->impulse.data();
+    face_rows[lane] = face->normal.data();
+  }
+  const Columns first = columns(load_rows([&](Index lane) HWY_ATTR { return record_rows[lane]; }));
+  const Columns second = columns(load_rows([&](Index lane) HWY_ATTR { return record_rows[lane] + 4; }));
+  const Columns face = columns(load_rows([&](Index lane) HWY_ATTR { return face_rows[lane]; }));
+  const hn::RebindToUnsigned<Tag> bits;
+  const auto word = hn::BitCast(bits, second.w);  // node_b, corner, regime, local_a, local_b
+  const auto byte = hn::Set(bits, 0xFF);
+  const auto regime = hn::And(hn::ShiftRight<40>(word), byte);
+  const auto is = [&](RecordRegime r) HWY_ATTR {
+    return hn::RebindMask(Tag(), hn::Eq(regime, hn::Set(bits, static_cast<std::uint64_t>(r))));
+  };
+  const M open = hn::RebindMask(Tag(), hn::Ne(hn::And(hn::ShiftRight<48>(word), byte), hn::ShiftRight<56>(word)));
+  return {first.xyz(),
+          face.xyz(),
+          first.w,
+          second.x,
+          second.y,
+          face.w,
+          open,
+          is(RecordRegime::Virgin),
+          is(RecordRegime::Failed)};
+}
+
+HWY_INLINE M is_rotating(V action) {
+  return hn::Or(hn::Gt(action, zero()), hn::Eq(action, number(face_action::ends_and_rotates)));
+}
+
+/// Coefficient of friction at damage `damage`.
+HWY_INLINE V friction_of(const CohesiveLaw& law, V damage) {
+  const V one = number(1.0), internal = number(law.internal_friction), sliding = number(law.sliding_friction);
+  const V softening = law.softening_friction == SofteningFriction::KeepsConfinedStrength
+                          ? internal
+                          : hn::MulAdd(hn::Sub(one, damage), internal, hn::Mul(damage, sliding));
+  return hn::IfThenElse(hn::Ge(damage, one), sliding, softening);
+}
+
+/// Cohesion and friction of records.
+struct Resistance {
+  V shear_capacity, friction;
+};
+HWY_INLINE Resistance resistance(const ImpulseCoefficients& k, M virgin, V strength, V d_max, V delta_c) {
+  const V one = number(1.0);
+  const V damage = hn::Min(one, hn::Div(d_max, delta_c));
+  const V capacity = hn::Mul(hn::Mul(number(k.law.beta * k.dt), strength), hn::Sub(one, damage));
+  return {hn::IfThenElseZero(virgin, capacity), friction_of(k.law, damage)};
+}
+
+// Mass times rotation velocity of both nodes; returns the velocities.
+struct Spin {
+  Vec3V a, b;
+};
+HWY_INLINE Spin rotation_velocities(const RecordRow& row, Index lane0, M rotating, const Vec3V& xa, const Vec3V& xb) {
+  const double* faces[width];
+  for (Index lane = 0; lane < width; ++lane) {
+    const CrackRecord& record = *row.record[at(lane0 + lane)];
+    const auto* couple = reinterpret_cast<const char*>(row.couple[at(lane0 + lane)]);
+    faces[lane] = reinterpret_cast<const double*>(couple - offsetof(CrackFace, couple) - record.corner * sizeof(Vec4) +
+                                                  offsetof(CrackFace, rotation));
+  }
+  const Vec3V rotation = columns(load_rows([&](Index lane) HWY_ATTR { return faces[lane]; })).xyz();
+  const Vec3V centre = columns(load_rows([&](Index lane) HWY_ATTR { return faces[lane] + 4; })).xyz();
+  return {where(rotating, cross(rotation, difference(xa, centre))),
+          where(rotating, cross(rotation, difference(xb, centre)))};
+}
+
+HWY_INLINE void store_spin(const Spin& spin, V inverse_mass_a, V inverse_mass_b, RecordRow& row, Index lane0) {
+  store(scaled(hn::Div(number(1.0), inverse_mass_a), spin.a), row.spin_a, lane0);
+  store(scaled(hn::Div(number(1.0), inverse_mass_b), spin.b), row.spin_b, lane0);
+}
+
+/// The impulse nearest to (normal_part, tangential) that the records can bear: capacity in tension, Coulomb cone and
+/// cohesion in compression.
+HWY_INLINE Vec3V admissible(const Vec3V& n, V beta, V inverse_beta, V shear_capacity, V friction, V normal_part,
+                            const Vec3V& tangential) {
+  const M tension = hn::Lt(normal_part, zero());
+  const V bounded = hn::Max(normal_part, hn::Neg(hn::Mul(inverse_beta, shear_capacity)));
+  const V part = hn::IfThenElse(tension, bounded, normal_part);
+  const V scaled_part = hn::Mul(beta, part);
+  const V tension_limit2 = hn::Mul(hn::Sub(shear_capacity, scaled_part), hn::Add(shear_capacity, scaled_part));
+  const V limit = hn::MulAdd(friction, part, shear_capacity);
+  const V limit2 = hn::IfThenElse(tension, hn::Max(zero(), tension_limit2), hn::Mul(limit, limit));
+  const V size2 = dot(tangential, tangential);
+  const V scale = hn::IfThenElse(hn::Gt(size2, limit2), hn::Sqrt(hn::Div(limit2, size2)), number(1.0));
+  return scaled_sum(part, n, scaled(scale, tangential));
+}
+
+// Marks in records and faces what has changed its regime.
+HWY_INLINE void note_regimes(const Lanes& l, const RecordRow& row, M leaves_virgin, M fails) {
+  std::uint8_t leaving[8] = {}, failing[8] = {};
+  hn::StoreMaskBits(Tag(), leaves_virgin, leaving);
+  hn::StoreMaskBits(Tag(), fails, failing);
+  for (Index lane = 0; lane < width; ++lane) {
+    CrackRecord& record = *row.record[at(l.lane0 + lane)];
+    if ((leaving[0] >> lane) & 1) record.regime = RecordRegime::Softening;
+    if (!((failing[0] >> lane) & 1)) continue;
+    record.regime = RecordRegime::Failed;
+    l.view.faces[record.face].failed[record.corner] = 1;
+  }
+}
+
+/// A jump of records, split along the normals of their faces.
+struct Opening {
+  V normal, opening;  // jn, <jn>
+  Vec3V tangential;
+  V tangential2;
+};
+HWY_INLINE Opening opening_of(const Vec3V& jump, const Vec3V& n) {
+  const V jn = dot(jump, n);
+  const Vec3V tangential = difference(jump, scaled(jn, n));
+  return {jn, hn::Max(jn, zero()), tangential, dot(tangential, tangential)};
+}
+
+// Raises d_max to the present opening and books what that spends where the records soften.
+HWY_INLINE V grow_damage(const ImpulseCoefficients& k, const Gathered& g, M alive, const Opening& o, V energy2,
+                         Spent& spent) {
+  const V shear2 = number(k.law.beta / k.law.kappa * (k.law.beta / k.law.kappa));
+  const V mode = number(k.law.beta * k.law.beta / k.law.kappa);
+  const V d2 = hn::MulAdd(shear2, o.tangential2, hn::Mul(o.opening, o.opening));
+  const M grows = hn::And(alive, hn::Gt(d2, hn::Mul(g.d_max, g.d_max)));
+  const V reached = hn::Min(hn::Sqrt(d2), g.delta_c);
+  const V grown = hn::IfThenElseZero(grows, hn::Max(zero(), hn::Sub(reached, g.d_max)));
+  const M softens = hn::AndNot(hn::Or(g.virgin, g.failed), grows);
+  const V rate = hn::IfThenElseZero(softens, hn::Div(hn::Mul(hn::Mul(number(0.5), g.strength), grown), d2));
+  spent.cohesive = hn::MulAdd(rate, energy2, spent.cohesive);
+  spent.cohesive_shear = hn::MulAdd(rate, hn::Mul(mode, o.tangential2), spent.cohesive_shear);
+  spent.damaged = hn::Or(spent.damaged, hn::Gt(grown, hn::Mul(number(k.noticeable_damage), g.delta_c)));
+  return hn::IfThenElse(grows, reached, g.d_max);
+}
+
+/// State after the damage of this step.
+struct Advanced {
+  V d_max;
+  M virgin;
+  Vec3V secant_impulse;
+};
+
+HWY_INLINE Advanced advance(const Lanes& l, const Gathered& g, M acting, const Vec3V& jump, V inverse_mass_sum,
+                            const RecordRow& row, const Opening& o, Spent& spent) {
+  const ImpulseCoefficients& k = l.k;
+  const V mode = number(k.law.beta * k.law.beta / k.law.kappa);
+  const M alive = hn::AndNot(g.failed, acting);
+  const V energy2 = hn::MulAdd(mode, o.tangential2, hn::Mul(o.opening, o.opening));
+  const V d_max = grow_damage(k, g, alive, o, energy2, spent);
+  const V virgin_limit = hn::Mul(hn::Mul(number(k.virgin_factor), g.strength), inverse_mass_sum);
+  const M leaves_virgin = hn::And(hn::And(alive, g.virgin), hn::Gt(d_max, virgin_limit));
+  const M fails = hn::And(alive, hn::Ge(d_max, g.delta_c));
+  const M virgin = hn::AndNot(hn::Or(leaves_virgin, fails), g.virgin);
+  const M softening = hn::AndNot(hn::Or(virgin, fails), alive);
+  if (!hn::AllFalse(Tag(), hn::Or(leaves_virgin, fails))) note_regimes(l, row, leaves_virgin, fails);
+  const V one = number(1.0);
+  const V stiffness = hn::Max(zero(), hn::Mul(g.strength, hn::Sub(hn::Div(one, d_max), hn::Div(one, g.delta_c))));
+  const V along = hn::NegMulAdd(mode, o.normal, o.opening);  // <jn> n + mode (j - jn n)
+  const V pull = hn::Neg(hn::Mul(number(k.dt), stiffness));
+  const Vec3V stretch = scaled_sum(along, load(row.normal, l.lane0), scaled(mode, jump));
+  const Vec3V secant = where(softening, scaled(pull, stretch));
+  const M books = hn::And(leaves_virgin, softening);
+  if (!hn::AllFalse(Tag(), books)) {
+    // The impulses of the virgin phase paid for the whole opening; from now on the state pays for the recoverable part,
+    // and the half step from the last opening to this one is not in any sum yet.
+    const Vec3V slip = difference(columns(load_rows(local_rows(l, row.b, local_v_before))).xyz(),
+                                  columns(load_rows(local_rows(l, row.a, local_v_before))).xyz());
+    const V paid = hn::MulAdd(stiffness, energy2, dot(secant, slip));
+    spent.cohesive = hn::Sub(spent.cohesive, hn::IfThenElseZero(books, hn::Mul(number(0.5), paid)));
+  }
+  return {d_max, virgin, secant};
+}
+
+// Prepares a row and applies the rotations, the impulses of the last step and the secant forces.
+HWY_INLINE void start_row(const Lanes& l, Index number_in_vertex, Spent& spent) {
+  RecordRow& row = l.workspace.rows[at(number_in_vertex)];
+  const Index lane0 = l.lane0;
+  const Gathered g = gather(l, number_in_vertex, row);
+  const Columns xa = columns(load_rows(local_rows(l, row.a, 0))), xb = columns(load_rows(local_rows(l, row.b, 0)));
+  const M ended = hn::Lt(g.action, zero());
+  const M acting = hn::AndNot(ended, g.open);
+  const Vec3V jump = difference(xb.xyz(), xa.xyz());
+  const Opening o = opening_of(jump, g.normal);
+  const V inverse_mass_sum = hn::Add(xa.w, xb.w);
+  const V one = number(1.0);
+  const V effective_mass = hn::IfThenElseZero(acting, hn::Div(one, inverse_mass_sum));
+  store(g.normal, row.normal, lane0);
+  store(jump, row.jump, lane0);
+  store(xa.w, row.inverse_mass_a, lane0);
+  store(xb.w, row.inverse_mass_b, lane0);
+  store(effective_mass, row.effective_mass, lane0);
+  const V closing_impulse = hn::Mul(effective_mass, hn::Mul(o.opening, number(1.0 / l.k.dt)));
+  store(closing_impulse, row.closing_impulse, lane0);
+  const Advanced now = advance(l, g, acting, jump, inverse_mass_sum, row, o, spent);
+  const Resistance r = resistance(l.k, hn::And(acting, now.virgin), g.strength, now.d_max, g.delta_c);
+  store(now.d_max, row.d_max, lane0);
+  store(now.secant_impulse, row.secant_impulse, lane0);
+  store(r.shear_capacity, row.shear_capacity, lane0);
+  store(r.friction, row.friction, lane0);
+  store(hn::IfThenElseZero(now.virgin, one), row.virgin, lane0);
+  const Vec3V last = where(acting, g.impulse);
+  const V last_n = dot(last, g.normal);
+  // A push starts smaller by what the gap still lets through: continuous in the gap, which round-off may open.
+  const V push = hn::Max(zero(), hn::Sub(last_n, closing_impulse));
+  const V kept = hn::IfThenElse(hn::Gt(last_n, zero()), push, last_n);
+  const Vec3V impulse = admissible(g.normal, number(l.k.law.beta), number(1.0 / l.k.law.beta), r.shear_capacity,
+                                   r.friction, kept, difference(last, scaled(last_n, g.normal)));
+  store(impulse, row.impulse, lane0);
+  const Vec3V total = sum(impulse, now.secant_impulse);
+  Vec3V change_a = scaled(hn::Neg(xa.w), total), change_b = scaled(xb.w, total);
+  const M rotating = is_rotating(g.action);
+  row.rotates = !hn::AllFalse(Tag(), rotating);
+  if (row.rotates) {
+    const Spin spin = rotation_velocities(row, lane0, rotating, xa.xyz(), xb.xyz());
+    store_spin(spin, xa.w, xb.w, row, lane0);
+    change_a = sum(change_a, spin.a);
+    change_b = sum(change_b, spin.b);
+  }
+  // One after the other: at a closed tip both are the same node.
+  const auto a = local_rows(l, row.a, local_v), b = local_rows(l, row.b, local_v);
+  store_rows(add(load_rows(a), rows(change_a)), a);
+  store_rows(add(load_rows(b), rows(change_b)), b);
+}
+
+HWY_INLINE void relax_row(const Lanes& l, RecordRow& row, V beta, V inverse_beta) {
+  const auto at_a = local_rows(l, row.a, local_v), at_b = local_rows(l, row.b, local_v);
+  const Columns a = columns(load_rows(at_a)), b = columns(load_rows(at_b));
+  const Vec3V n = load(row.normal, l.lane0), last = load(row.impulse, l.lane0);
+  const V mass = load(row.effective_mass, l.lane0);
+  const Vec3V trial = difference(last, scaled(mass, difference(b.xyz(), a.xyz())));
+  const V trial_n = dot(trial, n);
+  // A push only once the gap has closed.
+  const V push = hn::Max(zero(), hn::Sub(trial_n, load(row.closing_impulse, l.lane0)));
+  const V normal_part = hn::IfThenElse(hn::Gt(trial_n, zero()), push, trial_n);
+  const Vec3V impulse = admissible(n, beta, inverse_beta, load(row.shear_capacity, l.lane0),
+                                   load(row.friction, l.lane0), normal_part, difference(trial, scaled(trial_n, n)));
+  store(impulse, row.impulse, l.lane0);
+  const Vec3V change = difference(impulse, last);
+  const Vec3V new_a = scaled_sum(hn::Neg(load(row.inverse_mass_a, l.lane0)), change, a.xyz());
+  const Vec3V new_b = scaled_sum(load(row.inverse_mass_b, l.lane0), change, b.xyz());
+  store_rows(rows(new_a), at_a);
+  store_rows(rows(new_b), at_b);
+}
+
+/// What the booking of a row needs.
+struct Booked {
+  Vec3V normal, impulse;
+  V shear_capacity, friction;
+  M virgin;
+  const RecordRow& row;
+};
+
+// Work taken from the bodies by impulses and rotations at the mean velocities of the step.
+HWY_INLINE void book_row(const Lanes& l, const Booked& b, Spent& spent) {
+  const Vec3V mean_a = columns(load_rows(local_rows(l, b.row.a, local_v_before))).xyz();
+  const Vec3V mean_b = columns(load_rows(local_rows(l, b.row.b, local_v_before))).xyz();
+  const Vec3V slip = difference(mean_b, mean_a);
+  const V pn = dot(b.impulse, b.normal);
+  const V normal_loss = hn::Neg(hn::Mul(pn, dot(slip, b.normal)));
+  const V tangential_loss = hn::Sub(hn::Neg(dot(b.impulse, slip)), normal_loss);
+  const V frictional = hn::Mul(hn::Max(zero(), pn), b.friction);
+  const V share =
+      hn::IfThenElseZero(hn::Gt(frictional, zero()), hn::Div(frictional, hn::Add(frictional, b.shear_capacity)));
+  const V friction = hn::IfThenElse(b.virgin, hn::Mul(share, tangential_loss), tangential_loss);
+  const M separates = hn::AndNot(hn::Gt(pn, zero()), b.virgin);
+  spent.friction = hn::Add(spent.friction, friction);
+  spent.separation = hn::Add(spent.separation, hn::Sub(tangential_loss, friction));
+  spent.separation = hn::Add(spent.separation, hn::IfThenElseZero(separates, normal_loss));
+  spent.closure = hn::Add(spent.closure, hn::IfThenZeroElse(separates, normal_loss));
+  if (!b.row.rotates) return;
+  spent.friction = hn::Sub(spent.friction, dot(load(b.row.spin_a, l.lane0), mean_a));
+  spent.friction = hn::Sub(spent.friction, dot(load(b.row.spin_b, l.lane0), mean_b));
+}
+
+// Impulses, damage and couples back to memory; books the row.
+HWY_INLINE void finish_row(const Lanes& l, RecordRow& row, Spent& spent) {
+  const Index lane0 = l.lane0;
+  const Vec3V impulse = load(row.impulse, lane0);
+  store_rows(rows(Columns{impulse.x, impulse.y, impulse.z, load(row.d_max, lane0)}),
+             [&](Index lane) HWY_ATTR { return row.record[at(lane0 + lane)]->impulse.data(); });
+  const auto couple = [&](Index lane) HWY_ATTR { return row.couple[at(lane0 + lane)]; };
+  const Vec3V total = sum(impulse, load(row.secant_impulse, lane0));
+  store_rows(add(load_rows(couple), rows(cross(load(row.jump, lane0), total))), couple);
+  book_row(l,
+           {load(row.normal, lane0), impulse, load(row.shear_capacity, lane0), load(row.friction, lane0),
+            hn::Gt(load(row.virgin, lane0), zero()), row},
+           spent);
+}
+
+HWY_INLINE void store_step_losses(const Lanes& l, const Spent& spent) {
+  HWY_ALIGN double value[3][width];
+  hn::Store(spent.separation, Tag(), value[0]);
+  hn::Store(spent.closure, Tag(), value[1]);
+  hn::Store(spent.friction, Tag(), value[2]);
+  for (Index lane = 0; lane < width; ++lane) {
+    const Index vertex = l.group.vertex[at(l.lane0 + lane)];
+    if (vertex != none) l.view.step_losses[vertex] = {value[0][lane], value[1][lane], value[2][lane], 0.0};
+  }
+}
+
+HWY_INLINE void add_damage_losses(const Lanes& l, const Spent& spent) {
+  HWY_ALIGN double value[2][width];
+  hn::Store(spent.cohesive, Tag(), value[0]);
+  hn::Store(spent.cohesive_shear, Tag(), value[1]);
+  for (Index lane = 0; lane < width; ++lane) {
+    const Index vertex = l.group.vertex[at(l.lane0 + lane)];
+    if (vertex == none) continue;
+    l.view.losses[vertex].cohesive += value[0][lane];
+    l.view.losses[vertex].cohesive_shear += value[1][lane];
+  }
+}
+
+// Nodes and faces of a group lie anywhere in memory: asked for ahead, they come while another group is solved.
+HWY_INLINE void prefetch_records(const ImpulseView& view, const RecordGroup& group) {
+  for (std::size_t lane = 0; lane < at(group_lanes); ++lane)
+    for (Index k = 0; k < group.num_records[lane]; ++k)
+      __builtin_prefetch(view.records + group.first_record[lane] + k, 1);
+}
+HWY_INLINE void prefetch_contents(const ImpulseView& view, const RecordGroup& group) {
+  for (Index n = 0; n < group.num_nodes; ++n)
+    for (const Index node : view.groups->nodes[at(group.first_nodes + n)]) {
+      if (node == none) continue;
+      __builtin_prefetch(view.v + 4 * std::ptrdiff_t{node}, 1);
+      __builtin_prefetch(view.x + 4 * std::ptrdiff_t{node});
+      __builtin_prefetch(view.v_before + 4 * std::ptrdiff_t{node});
+      __builtin_prefetch(view.mass + node);
+    }
+  for (std::size_t lane = 0; lane < at(group_lanes); ++lane)
+    for (Index k = 0; k < group.num_records[lane]; ++k) {
+      const CrackRecord& record = view.records[group.first_record[lane] + k];
+      __builtin_prefetch(&view.faces[record.face], 1);
+      if (record.corner > 0) __builtin_prefetch(&view.faces[record.face].couple[1], 1);
+    }
+}
+
+HWY_INLINE bool solve_lanes(const Lanes& l, const RecordGroup* next, const RecordGroup* after_next) {
+  Spent spent = nothing_spent();
+  const Index count = l.group.max_records;
+  std::vector<RecordRow>& rows = l.workspace.rows;
+  load_nodes(l);
+  for (Index i = 0; i < count; ++i) start_row(l, i, spent);
+  if (after_next) prefetch_records(l.view, *after_next);
+  if (next) prefetch_contents(l.view, *next);
+  const V beta = number(l.k.law.beta), inverse_beta = number(1.0 / l.k.law.beta);
+  for (int sweep = 0; sweep < l.k.sweeps; ++sweep)
+    for (Index i = 0; i < count; ++i) relax_row(l, rows[at(i)], beta, inverse_beta);
+  store_velocities(l);
+  average_velocities(l);
+  for (Index i = 0; i < count; ++i) finish_row(l, rows[at(i)], spent);
+  add_damage_losses(l, spent);
+  store_step_losses(l, spent);
+  return !hn::AllFalse(Tag(), spent.damaged);
+}
+
+bool SolveGroups(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const RecordGroup> groups,
+                 ImpulseWorkspace& workspace) {
+  bool damaged = false;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (Index lane0 = 0; lane0 < group_lanes; lane0 += width) {
+      const bool first = lane0 == 0;
+      damaged |=
+          solve_lanes({view, k, groups[g], workspace, lane0}, first && g + 1 < groups.size() ? &groups[g + 1] : nullptr,
+                      first && g + 2 < groups.size() ? &groups[g + 2] : nullptr);
+    }
+  return damaged;
+}
+
+void BookGroup(const ImpulseView& view, const ImpulseCoefficients& k, const RecordGroup& group,
+               ImpulseWorkspace& workspace) {
+  for (Index lane0 = 0; lane0 < group_lanes; lane0 += width) {
+    const Lanes l{view, k, group, workspace, lane0};
+    Spent spent = nothing_spent();
+    load_nodes(l);
+    average_velocities(l);
+    for (Index i = 0; i < group.max_records; ++i) {
+      RecordRow& row = workspace.rows[at(i)];
+      const Gathered g = gather(l, i, row);
+      const M rotating = is_rotating(g.action);
+      row.rotates = !hn::AllFalse(Tag(), rotating);
+      if (row.rotates) {
+        const Columns xa = columns(load_rows(local_rows(l, row.a, 0))),
+                      xb = columns(load_rows(local_rows(l, row.b, 0)));
+        store_spin(rotation_velocities(row, lane0, rotating, xa.xyz(), xb.xyz()), xa.w, xb.w, row, lane0);
+      }
+      const Resistance r = resistance(k, g.virgin, g.strength, g.d_max, g.delta_c);
+      book_row(l, {g.normal, g.impulse, r.shear_capacity, r.friction, g.virgin, row}, spent);
+    }
+    store_step_losses(l, spent);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace knap
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace knap {
+
+HWY_EXPORT(SolveGroups);
+HWY_EXPORT(BookGroup);
+
+namespace {
+void make_room(const RecordGroups& groups, ImpulseWorkspace& workspace) {
+  if (workspace.rows.size() < at(groups.max_records)) workspace.rows.resize(at(groups.max_records));
+  if (workspace.nodes.size() < at(groups.max_nodes)) workspace.nodes.resize(at(groups.max_nodes));
+}
+}  // namespace
+
+bool solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const RecordGroup> groups,
+                  ImpulseWorkspace& workspace) {
+  make_room(*view.groups, workspace);
+  return HWY_DYNAMIC_DISPATCH(SolveGroups)(view, k, groups, workspace);
+}
+void book_group(const ImpulseView& view, const ImpulseCoefficients& k, const RecordGroup& group,
+                ImpulseWorkspace& workspace) {
+  make_room(*view.groups, workspace);
+  HWY_DYNAMIC_DISPATCH(BookGroup)(view, k, group, workspace);
+}
+
+std::vector<std::string> impulse_kernel_targets() {
+  std::vector<std::string> names;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
+  return names;
+}
+
+void use_impulse_kernel_target(const std::string& name) {
+  std::int64_t wanted = 0;
+  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
+    if (name == hwy::TargetName(target)) wanted = target;
+  hwy::GetChosenTarget().Update(wanted != 0 ? wanted : hwy::SupportedTargets());
+}
+
+}  // namespace knap
+#endif
