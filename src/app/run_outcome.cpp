@@ -28,9 +28,11 @@ Pieces pieces(const Simulation& s, FragmentLabel label) {
 // The term that grew or fell most between two ledgers.
 EnergyTerm most_changed(const EnergyLedger& before, const EnergyLedger& now) {
   std::size_t worst = 0;
+  double largest = -1.0;
   for (std::size_t term = 0; term < num_energy_terms; ++term) {
-    const auto change = [&](std::size_t t) { return std::abs(now.value[t] - before.value[t]); };
-    if (!(change(term) <= change(worst))) worst = term;  // one that is not a number counts as the largest
+    const double change = std::abs(now.value[term] - before.value[term]);
+    if (!std::isfinite(change)) return static_cast<EnergyTerm>(term);
+    if (change > largest) worst = term, largest = change;
   }
   return static_cast<EnergyTerm>(worst);
 }
