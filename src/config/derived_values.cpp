@@ -12,8 +12,8 @@ namespace {
 constexpr double default_num_tets = 20000.0;
 constexpr double most_tets = 1e8;
 
-// Tets in a volume h^3 at a mean edge h, measured on this project's meshes (regular tets, which do not fill space, would
-// be 6 sqrt 2 = 8.5).
+// Tets in a volume h^3 at a mean edge h, measured on this project's meshes (regular tets, which do not fill space,
+// would be 6 sqrt 2 = 8.5).
 constexpr double edge_cubed_per_volume = 10.9;
 
 double rounded_to_3_digits(double x) {
