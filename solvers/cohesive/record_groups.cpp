@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <limits>
 
 #include "cohesive/cohesive_state.hpp"
 #include "core/errors.hpp"
@@ -13,90 +12,94 @@ namespace knap {
 namespace {
 
 constexpr Index vertices_per_chunk = 256;
+constexpr std::size_t most_local_nodes = 256;
+constexpr Index rows_per_face = sizeof(CrackFace) / sizeof(Vec4);
+constexpr Index first_couple_row = 1;
 
-using LocalNodes = std::vector<Index>;
+/// The nodes of one vertex by local number, in the order in which its records name them.
+struct LocalNodes {
+  std::array<Index, most_local_nodes> nodes;
+  std::size_t count = 0;
 
-std::uint8_t local_number(LocalNodes& nodes, Index node) {
-  const auto found = std::find(nodes.begin(), nodes.end(), node);
-  const auto number = found - nodes.begin();
-  if (found == nodes.end()) nodes.push_back(node);
-  if (number > std::numeric_limits<std::uint8_t>::max())
-    throw InputError(fmt::format("mesh: more than {} pieces around one vertex", number));
-  return static_cast<std::uint8_t>(number);
-}
-
-LocalNodes number_nodes(std::span<CrackRecord> records) {
-  LocalNodes nodes;
-  for (CrackRecord& record : records) {
-    record.local_a = local_number(nodes, record.node_a);
-    record.local_b = local_number(nodes, record.node_b);
+  // `guess` is the number that the node had last time.
+  std::uint8_t number(Index node, std::uint8_t guess) {
+    if (guess < count && nodes[guess] == node) return guess;
+    const auto end = nodes.begin() + static_cast<std::ptrdiff_t>(count);
+    const auto found = std::find(nodes.begin(), end, node);
+    if (found == end) {
+      if (count == most_local_nodes)
+        throw InputError(fmt::format("mesh: more than {} pieces around one vertex", most_local_nodes));
+      nodes[count++] = node;
+    }
+    return static_cast<std::uint8_t>(found - nodes.begin());
   }
-  return nodes;
-}
+};
 
-/// Groups and nodes of a chunk of vertices, counted from its start.
+/// Groups of a chunk of vertices, counted from its start.
 struct Chunk {
   std::vector<RecordGroup> groups;
+  std::vector<RecordSlots> slots;
   std::vector<PerLane<Index>> nodes;
 };
 
-void append_group(Chunk& chunk, const CrackState& cracks, std::span<const Index> vertices,
-                  std::span<const LocalNodes* const> nodes_of_lane) {
-  RecordGroup group;
-  group.vertex.fill(none);
-  group.first_nodes = to_index(chunk.nodes.size());
-  for (std::size_t lane = 0; lane < vertices.size(); ++lane) {
-    group.vertex[lane] = vertices[lane];
-    group.first_record[lane] = cracks.record_offsets[at(vertices[lane])];
-    group.num_records[lane] = to_index(cracks.records_of_vertex(vertices[lane]).size());
-    group.max_records = std::max(group.max_records, group.num_records[lane]);
-    group.num_nodes = std::max(group.num_nodes, to_index(nodes_of_lane[lane]->size()));
+RecordSlots no_slots() {
+  RecordSlots slots;
+  slots.record.fill(none);
+  slots.couple.fill(none);
+  return slots;
+}
+
+void fill_lane(Chunk& chunk, RecordGroup& group, std::size_t lane, CrackState& cracks, Index vertex) {
+  group.vertex[lane] = vertex;
+  LocalNodes local;
+  RecordSlots* slots = chunk.slots.data() + group.first_slots;
+  const Index end = cracks.record_offsets[at(vertex) + 1];
+  for (Index r = cracks.record_offsets[at(vertex)]; r < end; ++r, ++slots) {
+    CrackRecord& record = cracks.records[at(r)];
+    record.local_a = local.number(record.node_a, record.local_a);
+    record.local_b = local.number(record.node_b, record.local_b);
+    slots->record[lane] = r;
+    slots->couple[lane] = rows_per_face * record.face + first_couple_row + record.corner;
+    slots->a[lane] = record.local_a;
+    slots->b[lane] = record.local_b;
   }
-  chunk.nodes.resize(chunk.nodes.size() + at(group.num_nodes));
-  for (std::size_t k = 0; k < at(group.num_nodes); ++k) {
-    PerLane<Index>& row = chunk.nodes[at(group.first_nodes) + k];
-    row.fill(none);
-    for (std::size_t lane = 0; lane < vertices.size(); ++lane)
-      if (k < nodes_of_lane[lane]->size()) row[lane] = (*nodes_of_lane[lane])[k];
+  while (group.num_nodes < to_index(local.count)) {
+    chunk.nodes.emplace_back().fill(none);
+    ++group.num_nodes;
   }
-  chunk.groups.push_back(group);
+  for (std::size_t n = 0; n < local.count; ++n) chunk.nodes[at(group.first_nodes) + n][lane] = local.nodes[n];
 }
 
 Chunk make_chunk(CrackState& cracks, std::span<const Index> vertices) {
-  struct Member {
-    Index vertex;
-    LocalNodes nodes;
-  };
-  std::vector<Member> members;
-  for (const Index vertex : vertices) members.push_back({vertex, number_nodes(cracks.records_of_vertex(vertex))});
-  std::stable_sort(members.begin(), members.end(), [&cracks](const Member& a, const Member& b) {
-    return cracks.records_of_vertex(a.vertex).size() > cracks.records_of_vertex(b.vertex).size();
-  });
+  const auto count = [&cracks](Index v) { return cracks.record_offsets[at(v) + 1] - cracks.record_offsets[at(v)]; };
+  std::vector<Index> sorted(vertices.begin(), vertices.end());
+  std::stable_sort(sorted.begin(), sorted.end(), [&count](Index a, Index b) { return count(a) > count(b); });
   Chunk chunk;
-  for (std::size_t first = 0; first < members.size(); first += at(group_lanes)) {
-    const std::size_t count = std::min(members.size() - first, at(group_lanes));
-    PerLane<Index> lane_vertices{};
-    PerLane<const LocalNodes*> lane_nodes{};
-    for (std::size_t lane = 0; lane < count; ++lane) {
-      lane_vertices[lane] = members[first + lane].vertex;
-      lane_nodes[lane] = &members[first + lane].nodes;
-    }
-    append_group(chunk, cracks, std::span(lane_vertices).first(count), std::span(lane_nodes).first(count));
+  chunk.nodes.reserve(2 * sorted.size());
+  for (std::size_t first = 0; first < sorted.size(); first += at(group_lanes)) {
+    RecordGroup group;
+    group.vertex.fill(none);
+    group.first_nodes = to_index(chunk.nodes.size());
+    group.first_slots = to_index(chunk.slots.size());
+    group.num_slots = count(sorted[first]);
+    chunk.slots.resize(chunk.slots.size() + at(group.num_slots), no_slots());
+    const std::size_t members = std::min(sorted.size() - first, at(group_lanes));
+    for (std::size_t lane = 0; lane < members; ++lane) fill_lane(chunk, group, lane, cracks, sorted[first + lane]);
+    chunk.groups.push_back(group);
   }
   return chunk;
 }
 
 void append_chunk(RecordGroups& all, const Chunk& chunk) {
-  const Index first_nodes = to_index(all.nodes.size());
-  all.nodes.insert(all.nodes.end(), chunk.nodes.begin(), chunk.nodes.end());
   for (RecordGroup group : chunk.groups) {
-    group.first_nodes += first_nodes;
-    for (const Index vertex : group.vertex)
-      if (vertex != none) all.group_of_vertex[at(vertex)] = to_index(all.groups.size());
-    all.max_records = std::max(all.max_records, group.max_records);
+    group.first_nodes += to_index(all.nodes.size());
+    group.first_slots += to_index(all.slots.size());
+    all.max_slots = std::max(all.max_slots, group.num_slots);
     all.max_nodes = std::max(all.max_nodes, group.num_nodes);
     all.groups.push_back(group);
   }
+  all.nodes.insert(all.nodes.end(), chunk.nodes.begin(), chunk.nodes.end());
+  all.slots.insert(all.slots.end(), chunk.slots.begin(), chunk.slots.end());
 }
 
 }  // namespace
@@ -110,10 +113,12 @@ void group_records(CrackState& cracks) {
         std::span(cracks.vertices).subspan(at(first), at(std::min(vertices_per_chunk, count - first)));
     chunks[at(c)] = make_chunk(cracks, vertices);
   });
-  RecordGroups all;
-  all.group_of_vertex.assign(cracks.losses_of_vertex.size(), none);
+  RecordGroups& all = cracks.groups;
+  all.groups.clear();
+  all.slots.clear();
+  all.nodes.clear();
+  all.max_slots = all.max_nodes = 0;
   for (const Chunk& chunk : chunks) append_chunk(all, chunk);
-  cracks.groups = std::move(all);
 }
 
 }  // namespace knap

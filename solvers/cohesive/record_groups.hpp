@@ -10,23 +10,30 @@ inline constexpr Index group_lanes = 8;
 template <class T>
 using PerLane = std::array<T, std::size_t{group_lanes}>;
 
+/// The k-th records of a group; none in lanes with fewer records.
+struct RecordSlots {
+  PerLane<Index> record{};     ///< in CrackState::records
+  PerLane<Index> couple{};     ///< its row of four doubles, counted from CrackState::faces
+  PerLane<std::uint16_t> a{};  ///< local numbers of its nodes
+  PerLane<std::uint16_t> b{};
+};
+
 /// Eight vertices with about as many records each.
 struct RecordGroup {
-  PerLane<Index> vertex{};        ///< none in lanes without one
-  PerLane<Index> first_record{};  ///< in CrackState::records
-  PerLane<Index> num_records{};
-  Index max_records = 0;
-  Index first_nodes = 0;  ///< in RecordGroups::nodes
-  Index num_nodes = 0;    ///< largest number of nodes of one of the vertices
+  PerLane<Index> vertex{};  ///< none in lanes without one
+  Index first_slots = 0;    ///< in RecordGroups::slots
+  Index num_slots = 0;      ///< largest number of records of one of the vertices
+  Index first_nodes = 0;    ///< in RecordGroups::nodes
+  Index num_nodes = 0;      ///< largest number of nodes of one of the vertices
 };
 
 /// Derived from the records whenever these are added, removed or get other nodes.
 struct RecordGroups {
   std::vector<RecordGroup> groups;
-  std::vector<PerLane<Index>> nodes;   ///< by group and local number, none where a vertex has fewer
-  std::vector<Index> group_of_vertex;  ///< none = without records
-  Index max_records = 0;               ///< of a vertex
-  Index max_nodes = 0;                 ///< of a vertex
+  std::vector<RecordSlots> slots;     ///< by group and number of the record at its vertex
+  std::vector<PerLane<Index>> nodes;  ///< by group and local number, none where a vertex has fewer
+  Index max_slots = 0;                ///< of a group
+  Index max_nodes = 0;                ///< of a group
 };
 
 struct CrackState;

@@ -28,49 +28,56 @@ ImpulseWorkspace& workspace() {
   return memory;
 }
 
-// The groups that hold the vertices of some nodes, ascending.
-std::vector<Index> groups_of_nodes(const CrackState& cracks, const Topology& topology, std::span<const Index> nodes) {
-  std::vector<std::uint8_t> is_changed(cracks.groups.groups.size(), 0);
-  for (const Index node : nodes) {
-    const Index group = cracks.groups.group_of_vertex[at(topology.vertex_of_node[at(node)])];
-    if (group != none) is_changed[at(group)] = 1;
-  }
-  std::vector<Index> changed;
-  for (Index group = 0; group < to_index(is_changed.size()); ++group)
-    if (is_changed[at(group)]) changed.push_back(group);
-  return changed;
+ImpulseView view(CrackState& cracks, NodalState& nodes) {
+  return {&cracks.groups,
+          cracks.record_offsets.data(),
+          cracks.records.data(),
+          cracks.faces.data(),
+          nodes.x.data()->data(),
+          nodes.v.data()->data(),
+          nodes.v_before.data()->data(),
+          nodes.mass.data(),
+          cracks.losses_of_vertex.data(),
+          cracks.step_losses_of_vertex.data()};
+}
+
+// The cracked vertices of some nodes in the order of the groups, where neighbours have about as many records.
+std::vector<Index> cracked_vertices(const CrackState& cracks, const Topology& topology, std::span<const Index> nodes) {
+  std::vector<std::uint8_t> is_changed(cracks.losses_of_vertex.size(), 0);
+  for (const Index node : nodes) is_changed[at(topology.vertex_of_node[at(node)])] = 1;
+  std::vector<Index> vertices;
+  for (const RecordGroup& group : cracks.groups.groups)
+    for (const Index vertex : group.vertex)
+      if (vertex != none && is_changed[at(vertex)]) vertices.push_back(vertex);
+  return vertices;
 }
 
 }  // namespace
 
 bool apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexImpulseOptions& options) {
-  const ImpulseView view{&cracks.groups,         cracks.records.data(),          cracks.faces.data(),
-                         nodes.x.data()->data(), nodes.v.data()->data(),         nodes.v_before.data()->data(),
-                         nodes.mass.data(),      cracks.losses_of_vertex.data(), cracks.step_losses_of_vertex.data()};
   const ImpulseCoefficients k = coefficients(options);
-  const std::span<const RecordGroup> groups = cracks.groups.groups;
+  const Index count = to_index(cracks.groups.groups.size());
   std::atomic<bool> damaged{false};
-  parallel_blocks(num_blocks(to_index(groups.size()), groups_per_block), [&](Index block) {
-    const std::size_t first = at(block * groups_per_block);
-    const std::size_t count = std::min(groups.size() - first, at(groups_per_block));
-    if (solve_groups(view, k, groups.subspan(first, count), workspace()))
+  parallel_blocks(num_blocks(count, groups_per_block), [&](Index block) {
+    const Index first = block * groups_per_block;
+    if (solve_groups(view(cracks, nodes), k, first, std::min(count, first + groups_per_block), workspace()))
       damaged.store(true, std::memory_order_relaxed);
   });
   return damaged.load();
 }
 
 void settle_crack_losses(CrackState& cracks, const Topology& topology, const NodalState& nodes,
-                         std::vector<Index> changed_nodes, const VertexImpulseOptions& options) {
-  // Booking only reads records, faces and nodes.
-  auto& now = const_cast<NodalState&>(nodes);
-  const ImpulseView view{&cracks.groups,       cracks.records.data(),          cracks.faces.data(),
-                         now.x.data()->data(), now.v.data()->data(),           now.v_before.data()->data(),
-                         now.mass.data(),      cracks.losses_of_vertex.data(), cracks.step_losses_of_vertex.data()};
+                         const std::vector<Index>& changed_nodes, const VertexImpulseOptions& options) {
   const ImpulseCoefficients k = coefficients(options);
-  const auto changed = groups_of_nodes(cracks, topology, changed_nodes);
+  const auto changed = cracked_vertices(cracks, topology, changed_nodes);
+  const ImpulseView now = view(cracks, const_cast<NodalState&>(nodes));  // booking only reads the nodes
   parallel_for(
-      to_index(changed.size()),
-      [&](Index i) { book_group(view, k, cracks.groups.groups[at(changed[at(i)])], workspace()); }, groups_per_block);
+      num_blocks(to_index(changed.size()), group_lanes),
+      [&](Index i) {
+        const auto rest = std::span(changed).subspan(at(i * group_lanes));
+        book_vertices(now, k, rest.first(std::min(rest.size(), at(group_lanes))), workspace());
+      },
+      groups_per_block);
   for (const Index vertex : cracks.vertices)
     cracks.losses_of_vertex[at(vertex)] += cracks.step_losses_of_vertex[at(vertex)];
 }

@@ -19,7 +19,7 @@ bool apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexIm
 /// Books anew the losses of this step at the vertices of the given nodes, which other impulses have changed since; then
 /// closes the books of the step.
 void settle_crack_losses(CrackState& cracks, const Topology& topology, const NodalState& nodes,
-                         std::vector<Index> changed_nodes, const VertexImpulseOptions& options);
+                         const std::vector<Index>& changed_nodes, const VertexImpulseOptions& options);
 
 /// Energies of the cracks [J].
 struct CrackEnergies {

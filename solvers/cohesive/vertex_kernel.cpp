@@ -1,5 +1,6 @@
 #include "cohesive/vertex_kernel.hpp"
 
+#include <algorithm>
 #include <cstddef>
 
 // AVX-512, AVX2, and plain C++ for anything older; the first two give the same bits.
@@ -80,7 +81,42 @@ struct Lanes {
   Index lane0;
 
   double* local() const { return workspace.nodes.data()->x[0].data() + 4 * lane0; }
+  const RecordSlots& slots(Index i) const { return view.groups->slots[at(group.first_slots + i)]; }
+  const Index* nodes(Index n) const { return view.groups->nodes[at(group.first_nodes + n)].data() + lane0; }
 };
+
+using Word = hn::RebindToSigned<Tag>;
+
+/// Addresses of rows of four doubles, one a lane.
+struct Addresses {
+  HWY_ALIGN std::int64_t address[width];
+
+  HWY_INLINE double* operator()(Index lane) const { return reinterpret_cast<double*>(address[lane]); }
+};
+
+HWY_INLINE hn::Vec<Word> load_indices(const Index* indices) {
+  return hn::PromoteTo(Word(), hn::LoadU(hn::Rebind<Index, Tag>(), indices));
+}
+/// base + index 2^log_size, or `idle` where the index is none.
+template <int log_size>
+HWY_INLINE Addresses addresses(const void* base, hn::Vec<Word> indices, const void* idle) {
+  const auto number_of = [](const void* p) HWY_ATTR {
+    return hn::Set(Word(), static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>(p)));
+  };
+  Addresses result;
+  const auto there = hn::Add(number_of(base), hn::ShiftLeft<log_size>(indices));
+  hn::Store(hn::IfThenElse(hn::Lt(indices, hn::Zero(Word())), number_of(idle), there), Word(), result.address);
+  return result;
+}
+template <std::ptrdiff_t doubles>
+struct Shifted {
+  const Addresses& rows;
+  HWY_INLINE double* operator()(Index lane) const { return rows(lane) + doubles; }
+};
+
+inline constexpr int log_row = 5, log_record = 6;
+inline constexpr Index rows_per_face = sizeof(CrackFace) / sizeof(Vec4);
+inline constexpr Index rotation_row = offsetof(CrackFace, rotation) / sizeof(Vec4);
 
 /// What impulses and damage spend, lane by lane.
 struct Spent {
@@ -98,73 +134,44 @@ HWY_INLINE auto local_rows(const Lanes& l, const PerLane<std::uint16_t>& offsets
 // Nodes into the local rows.
 HWY_INLINE void load_nodes(const Lanes& l) {
   for (Index n = 0; n < l.group.num_nodes; ++n) {
-    const Index* nodes = l.view.groups->nodes[at(l.group.first_nodes + n)].data() + l.lane0;
-    const auto global = [&](const double* base) HWY_ATTR {
-      return [=, idle = l.workspace.idle_node.data()](Index lane)
-                 HWY_ATTR { return nodes[lane] == none ? idle : base + 4 * std::ptrdiff_t{nodes[lane]}; };
-    };
+    const auto nodes = load_indices(l.nodes(n));
+    const Vec4& idle = l.workspace.idle_node;
     double* local = l.local() + n * doubles_per_node;
-    const auto to = [&](Index field) HWY_ATTR { return [=](Index lane) HWY_ATTR { return local + field + 4 * lane; }; };
-    HWY_ALIGN double mass[width];
-    for (Index lane = 0; lane < width; ++lane) mass[lane] = nodes[lane] == none ? 1.0 : l.view.mass[nodes[lane]];
-    Columns x = columns(load_rows(global(l.view.x)));
-    x.w = hn::Div(number(1.0), hn::Load(Tag(), mass));
+    const auto to = [=](Index field) HWY_ATTR { return [=](Index lane) HWY_ATTR { return local + field + 4 * lane; }; };
+    Columns x = columns(load_rows(addresses<log_row>(l.view.x, nodes, &idle)));
+    x.w = hn::Div(number(1.0), hn::GatherIndex(Tag(), l.view.mass, hn::Max(nodes, hn::Zero(Word()))));
     store_rows(rows(x), to(0));
-    store_rows(load_rows(global(l.view.v)), to(local_v));
-    store_rows(load_rows(global(l.view.v_before)), to(local_v_before));
+    store_rows(load_rows(addresses<log_row>(l.view.v, nodes, &idle)), to(local_v));
+    store_rows(load_rows(addresses<log_row>(l.view.v_before, nodes, &idle)), to(local_v_before));
   }
 }
 
-HWY_INLINE void store_velocities(const Lanes& l) {
-  for (Index n = 0; n < l.group.num_nodes; ++n) {
-    const Index* nodes = l.view.groups->nodes[at(l.group.first_nodes + n)].data() + l.lane0;
-    const double* local = l.local() + n * doubles_per_node + local_v;
-    store_rows(load_rows([=](Index lane) HWY_ATTR { return local + 4 * lane; }),
-               [&, idle = l.workspace.idle_node.data()](Index lane)
-                   HWY_ATTR { return nodes[lane] == none ? idle : l.view.v + 4 * std::ptrdiff_t{nodes[lane]}; });
-  }
-}
-
-// v_before becomes the mean velocity of the step.
-HWY_INLINE void average_velocities(const Lanes& l) {
+// The new velocities to memory; v_before becomes the mean velocity of the step.
+HWY_INLINE void store_nodes(const Lanes& l) {
   for (Index n = 0; n < l.group.num_nodes; ++n) {
     double* local = l.local() + n * doubles_per_node;
+    store_rows(load_rows([=](Index lane) HWY_ATTR { return local + local_v + 4 * lane; }),
+               addresses<log_row>(l.view.v, load_indices(l.nodes(n)), &l.workspace.idle_node));
     for (Index i = 0; i < 4 * width; i += width) {
-      const V mean = hn::Mul(
-          number(0.5), hn::Add(hn::LoadU(Tag(), local + local_v + i), hn::LoadU(Tag(), local + local_v_before + i)));
-      hn::StoreU(mean, Tag(), local + local_v_before + i);
+      const V both = hn::Add(hn::LoadU(Tag(), local + local_v + i), hn::LoadU(Tag(), local + local_v_before + i));
+      hn::StoreU(hn::Mul(number(0.5), both), Tag(), local + local_v_before + i);
     }
   }
 }
 
-/// The k-th records of the lanes as they lie in memory.
+/// Records of the lanes as they lie in memory.
 struct Gathered {
   Vec3V impulse, normal;
   V d_max, strength, delta_c, action;
+  V face_and_a, b_and_rest;  // the bits of face, node_a; node_b, corner, regime, local_a, local_b
   M open, virgin, failed;
 };
 
-HWY_INLINE Gathered gather(const Lanes& l, Index number_in_vertex, RecordRow& row) {
-  const double* record_rows[width];
-  const double* face_rows[width];
-  ImpulseWorkspace& w = l.workspace;
-  for (Index lane = 0; lane < width; ++lane) {
-    const std::size_t i = at(l.lane0 + lane);
-    const bool idle = number_in_vertex >= l.group.num_records[i];
-    CrackRecord* record = idle ? &w.idle_record : l.view.records + l.group.first_record[i] + number_in_vertex;
-    CrackFace* face = idle ? &w.idle_face : l.view.faces + record->face;
-    row.record[i] = record;
-    row.couple[i] = face->couple[record->corner].data();
-    row.a[i] = static_cast<std::uint16_t>(record->local_a * doubles_per_node);
-    row.b[i] = static_cast<std::uint16_t>(record->local_b * doubles_per_node);
-    record_rows[lane] = record->impulse.data();
-    face_rows[lane] = face->normal.data();
-  }
-  const Columns first = columns(load_rows([&](Index lane) HWY_ATTR { return record_rows[lane]; }));
-  const Columns second = columns(load_rows([&](Index lane) HWY_ATTR { return record_rows[lane] + 4; }));
-  const Columns face = columns(load_rows([&](Index lane) HWY_ATTR { return face_rows[lane]; }));
+HWY_INLINE Gathered gather(const Addresses& records, const Addresses& faces) {
+  const Columns first = columns(load_rows(records)), second = columns(load_rows(Shifted<4>{records}));
+  const Columns face = columns(load_rows(faces));
   const hn::RebindToUnsigned<Tag> bits;
-  const auto word = hn::BitCast(bits, second.w);  // node_b, corner, regime, local_a, local_b
+  const auto word = hn::BitCast(bits, second.w);
   const auto byte = hn::Set(bits, 0xFF);
   const auto regime = hn::And(hn::ShiftRight<40>(word), byte);
   const auto is = [&](RecordRegime r) HWY_ATTR {
@@ -177,9 +184,16 @@ HWY_INLINE Gathered gather(const Lanes& l, Index number_in_vertex, RecordRow& ro
           second.x,
           second.y,
           face.w,
+          second.z,
+          second.w,
           open,
           is(RecordRegime::Virgin),
           is(RecordRegime::Failed)};
+}
+
+// First rows of the faces whose couples lie at these rows.
+HWY_INLINE hn::Vec<Word> face_rows(hn::Vec<Word> couples) {
+  return hn::And(couples, hn::Set(Word(), ~std::int64_t{rows_per_face - 1}));
 }
 
 HWY_INLINE M is_rotating(V action) {
@@ -206,27 +220,15 @@ HWY_INLINE Resistance resistance(const ImpulseCoefficients& k, M virgin, V stren
   return {hn::IfThenElseZero(virgin, capacity), friction_of(k.law, damage)};
 }
 
-// Mass times rotation velocity of both nodes; returns the velocities.
+/// Rotation velocities of nodes a and b.
 struct Spin {
   Vec3V a, b;
 };
-HWY_INLINE Spin rotation_velocities(const RecordRow& row, Index lane0, M rotating, const Vec3V& xa, const Vec3V& xb) {
-  const double* faces[width];
-  for (Index lane = 0; lane < width; ++lane) {
-    const CrackRecord& record = *row.record[at(lane0 + lane)];
-    const auto* couple = reinterpret_cast<const char*>(row.couple[at(lane0 + lane)]);
-    faces[lane] = reinterpret_cast<const double*>(couple - offsetof(CrackFace, couple) - record.corner * sizeof(Vec4) +
-                                                  offsetof(CrackFace, rotation));
-  }
-  const Vec3V rotation = columns(load_rows([&](Index lane) HWY_ATTR { return faces[lane]; })).xyz();
-  const Vec3V centre = columns(load_rows([&](Index lane) HWY_ATTR { return faces[lane] + 4; })).xyz();
+HWY_INLINE Spin rotation_velocities(const Addresses& faces, M rotating, const Vec3V& xa, const Vec3V& xb) {
+  const Vec3V rotation = columns(load_rows(Shifted<4 * rotation_row>{faces})).xyz();
+  const Vec3V centre = columns(load_rows(Shifted<4 * rotation_row + 4>{faces})).xyz();
   return {where(rotating, cross(rotation, difference(xa, centre))),
           where(rotating, cross(rotation, difference(xb, centre)))};
-}
-
-HWY_INLINE void store_spin(const Spin& spin, V inverse_mass_a, V inverse_mass_b, RecordRow& row, Index lane0) {
-  store(scaled(hn::Div(number(1.0), inverse_mass_a), spin.a), row.spin_a, lane0);
-  store(scaled(hn::Div(number(1.0), inverse_mass_b), spin.b), row.spin_b, lane0);
 }
 
 /// The impulse nearest to (normal_part, tangential) that the records can bear: capacity in tension, Coulomb cone and
@@ -246,12 +248,13 @@ HWY_INLINE Vec3V admissible(const Vec3V& n, V beta, V inverse_beta, V shear_capa
 }
 
 // Marks in records and faces what has changed its regime.
-HWY_INLINE void note_regimes(const Lanes& l, const RecordRow& row, M leaves_virgin, M fails) {
+HWY_INLINE void note_regimes(const Lanes& l, const RecordSlots& slots, M leaves_virgin, M fails) {
   std::uint8_t leaving[8] = {}, failing[8] = {};
   hn::StoreMaskBits(Tag(), leaves_virgin, leaving);
   hn::StoreMaskBits(Tag(), fails, failing);
   for (Index lane = 0; lane < width; ++lane) {
-    CrackRecord& record = *row.record[at(l.lane0 + lane)];
+    if (!(((leaving[0] | failing[0]) >> lane) & 1)) continue;
+    CrackRecord& record = l.view.records[slots.record[at(l.lane0 + lane)]];
     if ((leaving[0] >> lane) & 1) record.regime = RecordRegime::Softening;
     if (!((failing[0] >> lane) & 1)) continue;
     record.regime = RecordRegime::Failed;
@@ -295,8 +298,9 @@ struct Advanced {
   Vec3V secant_impulse;
 };
 
-HWY_INLINE Advanced advance(const Lanes& l, const Gathered& g, M acting, const Vec3V& jump, V inverse_mass_sum,
-                            const RecordRow& row, const Opening& o, Spent& spent) {
+HWY_INLINE Advanced advance(const Lanes& l, Index i, const Gathered& g, M acting, const Vec3V& jump, V inverse_mass_sum,
+                            const Opening& o, Spent& spent) {
+  const RecordRow& row = l.workspace.rows[at(i)];
   const ImpulseCoefficients& k = l.k;
   const V mode = number(k.law.beta * k.law.beta / k.law.kappa);
   const M alive = hn::AndNot(g.failed, acting);
@@ -307,12 +311,12 @@ HWY_INLINE Advanced advance(const Lanes& l, const Gathered& g, M acting, const V
   const M fails = hn::And(alive, hn::Ge(d_max, g.delta_c));
   const M virgin = hn::AndNot(hn::Or(leaves_virgin, fails), g.virgin);
   const M softening = hn::AndNot(hn::Or(virgin, fails), alive);
-  if (!hn::AllFalse(Tag(), hn::Or(leaves_virgin, fails))) note_regimes(l, row, leaves_virgin, fails);
+  if (!hn::AllFalse(Tag(), hn::Or(leaves_virgin, fails))) note_regimes(l, l.slots(i), leaves_virgin, fails);
   const V one = number(1.0);
   const V stiffness = hn::Max(zero(), hn::Mul(g.strength, hn::Sub(hn::Div(one, d_max), hn::Div(one, g.delta_c))));
   const V along = hn::NegMulAdd(mode, o.normal, o.opening);  // <jn> n + mode (j - jn n)
   const V pull = hn::Neg(hn::Mul(number(k.dt), stiffness));
-  const Vec3V stretch = scaled_sum(along, load(row.normal, l.lane0), scaled(mode, jump));
+  const Vec3V stretch = scaled_sum(along, g.normal, scaled(mode, jump));
   const Vec3V secant = where(softening, scaled(pull, stretch));
   const M books = hn::And(leaves_virgin, softening);
   if (!hn::AllFalse(Tag(), books)) {
@@ -326,11 +330,26 @@ HWY_INLINE Advanced advance(const Lanes& l, const Gathered& g, M acting, const V
   return {d_max, virgin, secant};
 }
 
+HWY_INLINE void set_local_offsets(const Lanes& l, const RecordSlots& slots, RecordRow& row) {
+  const hn::CappedTag<std::uint16_t, std::size_t{group_lanes}> d;
+  const auto size = hn::Set(d, static_cast<std::uint16_t>(doubles_per_node));
+  for (std::size_t i = at(l.lane0); i < at(l.lane0 + width); i += hn::MaxLanes(d)) {
+    hn::StoreU(hn::Mul(hn::LoadU(d, slots.a.data() + i), size), d, row.a.data() + i);
+    hn::StoreU(hn::Mul(hn::LoadU(d, slots.b.data() + i), size), d, row.b.data() + i);
+  }
+}
+
 // Prepares a row and applies the rotations, the impulses of the last step and the secant forces.
-HWY_INLINE void start_row(const Lanes& l, Index number_in_vertex, Spent& spent) {
-  RecordRow& row = l.workspace.rows[at(number_in_vertex)];
+HWY_INLINE void start_row(const Lanes& l, Index i, Spent& spent) {
+  RecordRow& row = l.workspace.rows[at(i)];
   const Index lane0 = l.lane0;
-  const Gathered g = gather(l, number_in_vertex, row);
+  const RecordSlots& slots = l.slots(i);
+  set_local_offsets(l, slots, row);
+  const Addresses faces =
+      addresses<log_row>(l.view.faces, face_rows(load_indices(slots.couple.data() + lane0)), &l.workspace.idle_face);
+  const Gathered g =
+      gather(addresses<log_record>(l.view.records, load_indices(slots.record.data() + lane0), &l.workspace.idle_record),
+             faces);
   const Columns xa = columns(load_rows(local_rows(l, row.a, 0))), xb = columns(load_rows(local_rows(l, row.b, 0)));
   const M ended = hn::Lt(g.action, zero());
   const M acting = hn::AndNot(ended, g.open);
@@ -346,7 +365,7 @@ HWY_INLINE void start_row(const Lanes& l, Index number_in_vertex, Spent& spent) 
   store(effective_mass, row.effective_mass, lane0);
   const V closing_impulse = hn::Mul(effective_mass, hn::Mul(o.opening, number(1.0 / l.k.dt)));
   store(closing_impulse, row.closing_impulse, lane0);
-  const Advanced now = advance(l, g, acting, jump, inverse_mass_sum, row, o, spent);
+  const Advanced now = advance(l, i, g, acting, jump, inverse_mass_sum, o, spent);
   const Resistance r = resistance(l.k, hn::And(acting, now.virgin), g.strength, now.d_max, g.delta_c);
   store(now.d_max, row.d_max, lane0);
   store(now.secant_impulse, row.secant_impulse, lane0);
@@ -366,8 +385,9 @@ HWY_INLINE void start_row(const Lanes& l, Index number_in_vertex, Spent& spent) 
   const M rotating = is_rotating(g.action);
   row.rotates = !hn::AllFalse(Tag(), rotating);
   if (row.rotates) {
-    const Spin spin = rotation_velocities(row, lane0, rotating, xa.xyz(), xb.xyz());
-    store_spin(spin, xa.w, xb.w, row, lane0);
+    const Spin spin = rotation_velocities(faces, rotating, xa.xyz(), xb.xyz());
+    store(scaled(hn::Div(one, xa.w), spin.a), l.workspace.spins[at(i)].a, lane0);
+    store(scaled(hn::Div(one, xb.w), spin.b), l.workspace.spins[at(i)].b, lane0);
     change_a = sum(change_a, spin.a);
     change_b = sum(change_b, spin.b);
   }
@@ -397,19 +417,15 @@ HWY_INLINE void relax_row(const Lanes& l, RecordRow& row, V beta, V inverse_beta
   store_rows(rows(new_b), at_b);
 }
 
-/// What the booking of a row needs.
+/// What the booking of records needs.
 struct Booked {
   Vec3V normal, impulse;
   V shear_capacity, friction;
   M virgin;
-  const RecordRow& row;
 };
 
-// Work taken from the bodies by impulses and rotations at the mean velocities of the step.
-HWY_INLINE void book_row(const Lanes& l, const Booked& b, Spent& spent) {
-  const Vec3V mean_a = columns(load_rows(local_rows(l, b.row.a, local_v_before))).xyz();
-  const Vec3V mean_b = columns(load_rows(local_rows(l, b.row.b, local_v_before))).xyz();
-  const Vec3V slip = difference(mean_b, mean_a);
+// Work taken from the bodies by impulses at a mean slip velocity.
+HWY_INLINE void book_impulses(const Booked& b, const Vec3V& slip, Spent& spent) {
   const V pn = dot(b.impulse, b.normal);
   const V normal_loss = hn::Neg(hn::Mul(pn, dot(slip, b.normal)));
   const V tangential_loss = hn::Sub(hn::Neg(dot(b.impulse, slip)), normal_loss);
@@ -422,34 +438,45 @@ HWY_INLINE void book_row(const Lanes& l, const Booked& b, Spent& spent) {
   spent.separation = hn::Add(spent.separation, hn::Sub(tangential_loss, friction));
   spent.separation = hn::Add(spent.separation, hn::IfThenElseZero(separates, normal_loss));
   spent.closure = hn::Add(spent.closure, hn::IfThenZeroElse(separates, normal_loss));
-  if (!b.row.rotates) return;
-  spent.friction = hn::Sub(spent.friction, dot(load(b.row.spin_a, l.lane0), mean_a));
-  spent.friction = hn::Sub(spent.friction, dot(load(b.row.spin_b, l.lane0), mean_b));
+}
+
+// Work taken from the bodies by rotations: momenta that they add, mean velocities.
+HWY_INLINE void book_rotations(const Spin& momentum, const Vec3V& mean_a, const Vec3V& mean_b, Spent& spent) {
+  spent.friction = hn::Sub(spent.friction, dot(momentum.a, mean_a));
+  spent.friction = hn::Sub(spent.friction, dot(momentum.b, mean_b));
 }
 
 // Impulses, damage and couples back to memory; books the row.
-HWY_INLINE void finish_row(const Lanes& l, RecordRow& row, Spent& spent) {
+HWY_INLINE void finish_row(const Lanes& l, Index i, Spent& spent) {
   const Index lane0 = l.lane0;
+  const RecordRow& row = l.workspace.rows[at(i)];
+  const RecordSlots& slots = l.slots(i);
   const Vec3V impulse = load(row.impulse, lane0);
-  store_rows(rows(Columns{impulse.x, impulse.y, impulse.z, load(row.d_max, lane0)}),
-             [&](Index lane) HWY_ATTR { return row.record[at(lane0 + lane)]->impulse.data(); });
-  const auto couple = [&](Index lane) HWY_ATTR { return row.couple[at(lane0 + lane)]; };
+  store_rows(
+      rows(Columns{impulse.x, impulse.y, impulse.z, load(row.d_max, lane0)}),
+      addresses<log_record>(l.view.records, load_indices(slots.record.data() + lane0), &l.workspace.idle_record));
+  const Addresses couples =
+      addresses<log_row>(l.view.faces, load_indices(slots.couple.data() + lane0), &l.workspace.idle_face);
   const Vec3V total = sum(impulse, load(row.secant_impulse, lane0));
-  store_rows(add(load_rows(couple), rows(cross(load(row.jump, lane0), total))), couple);
-  book_row(l,
-           {load(row.normal, lane0), impulse, load(row.shear_capacity, lane0), load(row.friction, lane0),
-            hn::Gt(load(row.virgin, lane0), zero()), row},
-           spent);
+  store_rows(add(load_rows(couples), rows(cross(load(row.jump, lane0), total))), couples);
+  const Vec3V mean_a = columns(load_rows(local_rows(l, row.a, local_v_before))).xyz();
+  const Vec3V mean_b = columns(load_rows(local_rows(l, row.b, local_v_before))).xyz();
+  book_impulses({load(row.normal, lane0), impulse, load(row.shear_capacity, lane0), load(row.friction, lane0),
+                 hn::Gt(load(row.virgin, lane0), zero())},
+                difference(mean_b, mean_a), spent);
+  if (!row.rotates) return;
+  const SpinRow& spin = l.workspace.spins[at(i)];
+  book_rotations({load(spin.a, lane0), load(spin.b, lane0)}, mean_a, mean_b, spent);
 }
 
-HWY_INLINE void store_step_losses(const Lanes& l, const Spent& spent) {
+HWY_INLINE void store_step_losses(const ImpulseView& view, const Index* vertices, const Spent& spent) {
   HWY_ALIGN double value[3][width];
   hn::Store(spent.separation, Tag(), value[0]);
   hn::Store(spent.closure, Tag(), value[1]);
   hn::Store(spent.friction, Tag(), value[2]);
   for (Index lane = 0; lane < width; ++lane) {
-    const Index vertex = l.group.vertex[at(l.lane0 + lane)];
-    if (vertex != none) l.view.step_losses[vertex] = {value[0][lane], value[1][lane], value[2][lane], 0.0};
+    const Index vertex = vertices[lane];
+    if (vertex != none) view.step_losses[vertex] = {value[0][lane], value[1][lane], value[2][lane], 0.0};
   }
 }
 
@@ -465,82 +492,120 @@ HWY_INLINE void add_damage_losses(const Lanes& l, const Spent& spent) {
   }
 }
 
-// Nodes and faces of a group lie anywhere in memory: asked for ahead, they come while another group is solved.
-HWY_INLINE void prefetch_records(const ImpulseView& view, const RecordGroup& group) {
-  for (std::size_t lane = 0; lane < at(group_lanes); ++lane)
-    for (Index k = 0; k < group.num_records[lane]; ++k)
-      __builtin_prefetch(view.records + group.first_record[lane] + k, 1);
+// Records, faces and nodes of a group lie anywhere in memory: asked for ahead, they come while the group before is
+// solved. Where there are none the address is of no use, which does not harm.
+HWY_INLINE void prefetch_slots(const ImpulseView& view, const RecordSlots& slots) {
+  const auto* faces = reinterpret_cast<const Vec4*>(view.faces);
+  for (std::size_t lane = 0; lane < at(group_lanes); ++lane) {
+    __builtin_prefetch(view.records + slots.record[lane], 1);
+    __builtin_prefetch(faces + slots.couple[lane], 1);
+    __builtin_prefetch(faces + (slots.couple[lane] & ~(rows_per_face - 1)), 1);
+  }
 }
-HWY_INLINE void prefetch_contents(const ImpulseView& view, const RecordGroup& group) {
-  for (Index n = 0; n < group.num_nodes; ++n)
-    for (const Index node : view.groups->nodes[at(group.first_nodes + n)]) {
-      if (node == none) continue;
-      __builtin_prefetch(view.v + 4 * std::ptrdiff_t{node}, 1);
-      __builtin_prefetch(view.x + 4 * std::ptrdiff_t{node});
-      __builtin_prefetch(view.v_before + 4 * std::ptrdiff_t{node});
-      __builtin_prefetch(view.mass + node);
-    }
-  for (std::size_t lane = 0; lane < at(group_lanes); ++lane)
-    for (Index k = 0; k < group.num_records[lane]; ++k) {
-      const CrackRecord& record = view.records[group.first_record[lane] + k];
-      __builtin_prefetch(&view.faces[record.face], 1);
-      if (record.corner > 0) __builtin_prefetch(&view.faces[record.face].couple[1], 1);
-    }
+HWY_INLINE void prefetch_nodes(const ImpulseView& view, const PerLane<Index>& nodes) {
+  for (const Index node : nodes) {
+    const std::ptrdiff_t first = 4 * std::ptrdiff_t{node};
+    __builtin_prefetch(view.v + first, 1);
+    __builtin_prefetch(view.x + first);
+    __builtin_prefetch(view.v_before + first);
+    __builtin_prefetch(view.mass + node);
+  }
 }
 
-HWY_INLINE bool solve_lanes(const Lanes& l, const RecordGroup* next, const RecordGroup* after_next) {
-  Spent spent = nothing_spent();
-  const Index count = l.group.max_records;
-  std::vector<RecordRow>& rows = l.workspace.rows;
-  load_nodes(l);
-  for (Index i = 0; i < count; ++i) start_row(l, i, spent);
-  if (after_next) prefetch_records(l.view, *after_next);
-  if (next) prefetch_contents(l.view, *next);
+// One sweep over the records of a group; meanwhile another group comes.
+HWY_INLINE void sweep_group(const Lanes& l, const RecordGroup* next) {
   const V beta = number(l.k.law.beta), inverse_beta = number(1.0 / l.k.law.beta);
-  for (int sweep = 0; sweep < l.k.sweeps; ++sweep)
-    for (Index i = 0; i < count; ++i) relax_row(l, rows[at(i)], beta, inverse_beta);
-  store_velocities(l);
-  average_velocities(l);
-  for (Index i = 0; i < count; ++i) finish_row(l, rows[at(i)], spent);
+  for (Index i = 0; i < l.group.num_slots; ++i) {
+    if (next && i < next->num_slots) prefetch_slots(l.view, l.view.groups->slots[at(next->first_slots + i)]);
+    if (next && i < next->num_nodes) prefetch_nodes(l.view, l.view.groups->nodes[at(next->first_nodes + i)]);
+    relax_row(l, l.workspace.rows[at(i)], beta, inverse_beta);
+  }
+}
+
+HWY_INLINE bool solve_lanes(const Lanes& l, const RecordGroup* next) {
+  Spent spent = nothing_spent();
+  load_nodes(l);
+  for (Index i = 0; i < l.group.num_slots; ++i) start_row(l, i, spent);
+  for (int sweep = 0; sweep < l.k.sweeps; ++sweep) sweep_group(l, sweep == 0 ? next : nullptr);
+  store_nodes(l);
+  for (Index i = 0; i < l.group.num_slots; ++i) finish_row(l, i, spent);
   add_damage_losses(l, spent);
-  store_step_losses(l, spent);
+  store_step_losses(l.view, l.group.vertex.data() + l.lane0, spent);
   return !hn::AllFalse(Tag(), spent.damaged);
 }
 
-bool SolveGroups(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const RecordGroup> groups,
+bool SolveGroups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
                  ImpulseWorkspace& workspace) {
   bool damaged = false;
-  for (std::size_t g = 0; g < groups.size(); ++g)
-    for (Index lane0 = 0; lane0 < group_lanes; lane0 += width) {
-      const bool first = lane0 == 0;
-      damaged |=
-          solve_lanes({view, k, groups[g], workspace, lane0}, first && g + 1 < groups.size() ? &groups[g + 1] : nullptr,
-                      first && g + 2 < groups.size() ? &groups[g + 2] : nullptr);
-    }
+  const std::vector<RecordGroup>& groups = view.groups->groups;
+  for (Index g = first; g < last; ++g) {
+    const RecordGroup* next = at(g) + 1 < groups.size() ? &groups[at(g) + 1] : nullptr;
+    for (Index lane0 = 0; lane0 < group_lanes; lane0 += width)
+      damaged |= solve_lanes({view, k, groups[at(g)], workspace, lane0}, lane0 == 0 ? next : nullptr);
+  }
   return damaged;
 }
 
-void BookGroup(const ImpulseView& view, const ImpulseCoefficients& k, const RecordGroup& group,
-               ImpulseWorkspace& workspace) {
+// The nodes of records, from the bits that tell them.
+HWY_INLINE hn::Vec<Word> upper_half(V word) { return hn::ShiftRight<32>(hn::BitCast(Word(), word)); }
+HWY_INLINE hn::Vec<Word> lower_half(V word) { return hn::ShiftRight<32>(hn::ShiftLeft<32>(hn::BitCast(Word(), word))); }
+
+HWY_INLINE Vec3V mean_velocity(const ImpulseView& view, hn::Vec<Word> nodes, const Vec4& idle) {
+  const Vec3V v = columns(load_rows(addresses<log_row>(view.v, nodes, &idle))).xyz();
+  const Vec3V v_before = columns(load_rows(addresses<log_row>(view.v_before, nodes, &idle))).xyz();
+  return scaled(number(0.5), sum(v, v_before));
+}
+
+/// Momentum that the rotations have given to one node of each record.
+HWY_INLINE Spin rotation_momenta(const ImpulseView& view, const Addresses& faces, M rotating, hn::Vec<Word> a,
+                                 hn::Vec<Word> b, const Vec4& idle) {
+  const Spin spin = rotation_velocities(faces, rotating, columns(load_rows(addresses<log_row>(view.x, a, &idle))).xyz(),
+                                        columns(load_rows(addresses<log_row>(view.x, b, &idle))).xyz());
+  const auto mass = [&](hn::Vec<Word> nodes)
+                        HWY_ATTR { return hn::GatherIndex(Tag(), view.mass, hn::Max(nodes, hn::Zero(Word()))); };
+  return {scaled(mass(a), spin.a), scaled(mass(b), spin.b)};
+}
+
+// Books the records numbered i of the vertices.
+HWY_INLINE void book_row(const ImpulseView& view, const ImpulseCoefficients& k, const Index* records,
+                         ImpulseWorkspace& workspace, Spent& spent) {
+  const auto record_indices = load_indices(records);
+  const Addresses at_records = addresses<log_record>(view.records, record_indices, &workspace.idle_record);
+  HWY_ALIGN Index face_of_record[width];
+  for (Index lane = 0; lane < width; ++lane)
+    face_of_record[lane] = records[lane] == none ? none : view.records[records[lane]].face;
+  const Addresses faces = addresses<log_row + 3>(view.faces, load_indices(face_of_record), &workspace.idle_face);
+  const Gathered g = gather(at_records, faces);
+  const auto a = upper_half(g.face_and_a), b = lower_half(g.b_and_rest);
+  const Vec3V mean_a = mean_velocity(view, a, workspace.idle_node),
+              mean_b = mean_velocity(view, b, workspace.idle_node);
+  const Resistance r = resistance(k, g.virgin, g.strength, g.d_max, g.delta_c);
+  book_impulses({g.normal, g.impulse, r.shear_capacity, r.friction, g.virgin}, difference(mean_b, mean_a), spent);
+  const M rotating = is_rotating(g.action);
+  if (hn::AllFalse(Tag(), rotating)) return;
+  book_rotations(rotation_momenta(view, faces, rotating, a, b, workspace.idle_node), mean_a, mean_b, spent);
+}
+
+void BookVertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
+                  ImpulseWorkspace& workspace) {
+  PerLane<Index> vertex;
+  vertex.fill(none);
+  std::copy(vertices.begin(), vertices.end(), vertex.begin());
   for (Index lane0 = 0; lane0 < group_lanes; lane0 += width) {
-    const Lanes l{view, k, group, workspace, lane0};
     Spent spent = nothing_spent();
-    load_nodes(l);
-    average_velocities(l);
-    for (Index i = 0; i < group.max_records; ++i) {
-      RecordRow& row = workspace.rows[at(i)];
-      const Gathered g = gather(l, i, row);
-      const M rotating = is_rotating(g.action);
-      row.rotates = !hn::AllFalse(Tag(), rotating);
-      if (row.rotates) {
-        const Columns xa = columns(load_rows(local_rows(l, row.a, 0))),
-                      xb = columns(load_rows(local_rows(l, row.b, 0)));
-        store_spin(rotation_velocities(row, lane0, rotating, xa.xyz(), xb.xyz()), xa.w, xb.w, row, lane0);
+    bool any = true;
+    for (Index i = 0; any; ++i) {
+      HWY_ALIGN Index records[width];
+      any = false;
+      for (Index lane = 0; lane < width; ++lane) {
+        const Index v = vertex[at(lane0 + lane)];
+        const bool idle = v == none || view.record_offsets[v] + i >= view.record_offsets[v + 1];
+        records[lane] = idle ? none : view.record_offsets[v] + i;
+        any |= !idle;
       }
-      const Resistance r = resistance(k, g.virgin, g.strength, g.d_max, g.delta_c);
-      book_row(l, {g.normal, g.impulse, r.shear_capacity, r.friction, g.virgin, row}, spent);
+      if (any) book_row(view, k, records, workspace, spent);
     }
-    store_step_losses(l, spent);
+    store_step_losses(view, vertex.data() + lane0, spent);
   }
 }
 
@@ -552,24 +617,19 @@ HWY_AFTER_NAMESPACE();
 namespace knap {
 
 HWY_EXPORT(SolveGroups);
-HWY_EXPORT(BookGroup);
+HWY_EXPORT(BookVertices);
 
-namespace {
-void make_room(const RecordGroups& groups, ImpulseWorkspace& workspace) {
-  if (workspace.rows.size() < at(groups.max_records)) workspace.rows.resize(at(groups.max_records));
-  if (workspace.nodes.size() < at(groups.max_nodes)) workspace.nodes.resize(at(groups.max_nodes));
-}
-}  // namespace
-
-bool solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const RecordGroup> groups,
+bool solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
                   ImpulseWorkspace& workspace) {
-  make_room(*view.groups, workspace);
-  return HWY_DYNAMIC_DISPATCH(SolveGroups)(view, k, groups, workspace);
+  const std::size_t slots = at(view.groups->max_slots), nodes = at(view.groups->max_nodes);
+  if (workspace.rows.size() < slots) workspace.rows.resize(slots);
+  if (workspace.spins.size() < slots) workspace.spins.resize(slots);
+  if (workspace.nodes.size() < nodes) workspace.nodes.resize(nodes);
+  return HWY_DYNAMIC_DISPATCH(SolveGroups)(view, k, first, last, workspace);
 }
-void book_group(const ImpulseView& view, const ImpulseCoefficients& k, const RecordGroup& group,
-                ImpulseWorkspace& workspace) {
-  make_room(*view.groups, workspace);
-  HWY_DYNAMIC_DISPATCH(BookGroup)(view, k, group, workspace);
+void book_vertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
+                   ImpulseWorkspace& workspace) {
+  HWY_DYNAMIC_DISPATCH(BookVertices)(view, k, vertices, workspace);
 }
 
 std::vector<std::string> impulse_kernel_targets() {

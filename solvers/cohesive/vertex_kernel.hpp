@@ -21,6 +21,7 @@ struct ImpulseCoefficients {
 /// What the kernels read and write; nodal vectors are padded to four doubles.
 struct ImpulseView {
   const RecordGroups* groups = nullptr;
+  const Index* record_offsets = nullptr;  ///< of the vertices
   CrackRecord* records = nullptr;
   CrackFace* faces = nullptr;
   const double* x = nullptr;
@@ -36,18 +37,21 @@ using LaneVector = std::array<LaneValues, 3>;
 
 /// What the sweeps need of the k-th records of a group, gathered once a step.
 struct alignas(64) RecordRow {
-  LaneVector normal, jump, impulse, secant_impulse;
+  LaneVector normal, impulse;
   LaneValues inverse_mass_a, inverse_mass_b, effective_mass;
-  LaneValues closing_impulse;    ///< that the gap leaves free [N s]
-  LaneValues shear_capacity;     ///< beta times the capacity of tension, virgin records only [N s]
-  LaneValues friction;           ///< coefficient [-]
-  LaneValues d_max;              ///< [m]
-  LaneValues virgin;             ///< 1 or 0
-  PerLane<std::uint16_t> a, b;   ///< offsets of the local rows of the nodes [doubles]
-  LaneVector spin_a, spin_b;     ///< mass times rotation velocity of the nodes, if any lane rotates [kg m/s]
-  bool rotates = false;          ///< any lane
-  PerLane<CrackRecord*> record;  ///< those without one have the idle record
-  PerLane<double*> couple;       ///< of the record's face and corner
+  LaneValues closing_impulse;  ///< that the gap leaves free [N s]
+  LaneValues shear_capacity;   ///< beta times the capacity of tension, virgin records only [N s]
+  LaneValues friction;         ///< coefficient [-]
+  LaneVector jump, secant_impulse;
+  LaneValues d_max;             ///< [m]
+  LaneValues virgin;            ///< 1 or 0
+  PerLane<std::uint16_t> a, b;  ///< offsets of the local rows of the nodes [doubles]
+  bool rotates = false;         ///< any lane
+};
+
+/// Mass times rotation velocity of the nodes of the k-th records of a group, if any of them rotates [kg m/s].
+struct alignas(64) SpinRow {
+  LaneVector a, b;
 };
 
 /// Local rows of one node number: a row of four doubles for each lane.
@@ -60,18 +64,20 @@ struct alignas(64) NodeRow {
 /// Working memory of one thread.
 struct ImpulseWorkspace {
   std::vector<RecordRow> rows;
+  std::vector<SpinRow> spins;
   std::vector<NodeRow> nodes;
   CrackRecord idle_record;  ///< of lanes without a record: a closed tip without strength
   CrackFace idle_face;
-  std::array<double, 4> idle_node{};
+  Vec4 idle_node = Vec4::Zero();
 };
 
-/// Impulses of the vertices of some groups on the free velocities; damage grows. Returns true if noticeably.
-bool solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const RecordGroup> groups,
+/// Impulses of the vertices of the groups [first, last) on the free velocities; damage grows. Returns true if
+/// noticeably.
+bool solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
                   ImpulseWorkspace& workspace);
-/// Books anew what the impulses of a group spend at the present velocities.
-void book_group(const ImpulseView& view, const ImpulseCoefficients& k, const RecordGroup& group,
-                ImpulseWorkspace& workspace);
+/// Books anew what the impulses of up to eight vertices spend at the present velocities.
+void book_vertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
+                   ImpulseWorkspace& workspace);
 
 /// Instruction sets that this processor can run, best first.
 std::vector<std::string> impulse_kernel_targets();
