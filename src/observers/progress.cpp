@@ -79,6 +79,9 @@ void Progress::clear() {
 }
 
 void Progress::finish(const Simulation& s) {
+  // A short run ends before its first line was due: the rate is then that of the whole run.
+  const double seconds = std::chrono::duration<double>(Clock::now() - last_).count();
+  if (rate_ == 0.0 && last_step_ >= 0 && s.clock.step > last_step_ && seconds > 0.0) update_rate(s, seconds);
   show(s);
   if (options_.style == ProgressOptions::Style::Terminal) options_.show("\n");
 }
