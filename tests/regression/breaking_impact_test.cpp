@@ -49,7 +49,7 @@ void write_baseline(const std::map<std::string, Row>& rows, const std::map<std::
   std::ofstream file(path);
   file << "# Zeolite 1.5 mm, 22 m/s, 8 us (tests/regression/breaking_impact_test.cpp). Cracking is chaotic: tolerances "
           "of\n"
-          "# the change detectors are about the spread over compilers and mesh seeds.\n"
+          "# the change detectors are a guess, no spread has been measured yet.\n"
           "name,value,tolerance,kind\n";
   for (const auto& [name, row] : rows)
     file << name << ',' << (row.kind == "reference" ? row.value : found.at(name)) << ',' << row.tolerance << ','
