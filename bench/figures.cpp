@@ -1,5 +1,5 @@
 // The project's figures by name: elastic kernel and step, growth with size, and a whole breaking run against its
-// elastic twin. Usage: figures [--json FILE] [--time SECONDS of the breaking run, default 20e-6]
+// elastic twin. Usage: figures [--json FILE] [--time SECONDS of the breaking run, default 20e-6] [--only elastic|breaking]
 #include <fmt/format.h>
 
 #include <chrono>
@@ -86,6 +86,7 @@ struct WholeRun {
   double time = 0.0;   // wall clock [s]
   double bytes = 0.0;  // what the simulation holds at its end
   double closure_error = 0.0;
+  PhaseTimes phases;
 };
 
 WholeRun whole_run(const TetMesh& mesh, bool breaks, int threads, double end_time) {
@@ -99,7 +100,66 @@ WholeRun whole_run(const TetMesh& mesh, bool breaks, int threads, double end_tim
   });
   run.bytes = resident_bytes() - before;
   run.closure_error = s.ledger.max_closure_error;
+  run.phases = s.phase_times;
   return run;
+}
+
+}  // namespace
+}  // namespace knap
+
+namespace knap {
+namespace {
+
+class Figures {
+ public:
+  void give(const std::string& name, double value) {
+    values_[name] = value;
+    fmt::print("{:36} {:.4g}\n", name, value);
+    std::fflush(stdout);
+  }
+  bool write(const std::string& path) const {
+    std::ofstream file(path);
+    file << "{\n";
+    std::size_t left = values_.size();
+    for (const auto& [name, value] : values_)
+      file << fmt::format("  \"{}\": {:.6g}{}\n", name, value, --left ? "," : "");
+    file << "}\n";
+    return file.good();
+  }
+
+ private:
+  std::map<std::string, double> values_;
+};
+
+void elastic_figures(Figures& figures) {
+  constexpr Index cells_10k = 12, cells_140k = 29, cells_2m = 69;  // six tets a cell
+  const double one = force_rate(cells_140k, 1);
+  figures.give("elastic_force_140k_tets_per_s", one);
+  figures.give("elastic_force_threads2_speedup", force_rate(cells_140k, 2) / one);
+  figures.give("elastic_step_140k_tets_per_s", step_rate(cells_140k, 8));
+  figures.give("step_cost_2M_over_10k", step_rate(cells_10k, 30) / step_rate(cells_2m, 2));
+}
+
+void print_phases(const WholeRun& run) {
+  fmt::print("  {:.1f} s:", run.time);
+  for (std::size_t i = 0; i < num_phases; ++i)
+    fmt::print(" {} {:.1f} %", name(static_cast<Phase>(i)), 100.0 * run.phases[i] / run.time);
+  fmt::print("\n");
+}
+
+void breaking_figures(Figures& figures, double end_time) {
+  const TetMesh mesh = sphere_46k();
+  fmt::print("breaking run: {} tets, 30 m/s, {:g} us\n", mesh.num_tets(), end_time * 1e6);
+  const WholeRun breaking = whole_run(mesh, true, 1, end_time);
+  print_phases(breaking);
+  figures.give("breaking_bytes_per_tet", breaking.bytes / mesh.num_tets());
+  figures.give("breaking_closure_error", breaking.closure_error);
+  const WholeRun elastic = whole_run(mesh, false, 1, end_time);
+  print_phases(elastic);
+  figures.give("breaking_over_elastic_46k", breaking.time / elastic.time);
+  const WholeRun two_threads = whole_run(mesh, true, 2, end_time);
+  print_phases(two_threads);
+  figures.give("breaking_threads2_speedup", breaking.time / two_threads.time);
 }
 
 }  // namespace
@@ -107,37 +167,15 @@ WholeRun whole_run(const TetMesh& mesh, bool breaks, int threads, double end_tim
 
 int main(int argc, char** argv) {
   using namespace knap;
-  std::string json;
+  std::string json, only;
   double end_time = 20e-6;
   for (int i = 1; i + 1 < argc; i += 2) {
     if (std::string(argv[i]) == "--json") json = argv[i + 1];
     if (std::string(argv[i]) == "--time") end_time = std::stod(argv[i + 1]);
+    if (std::string(argv[i]) == "--only") only = argv[i + 1];
   }
-  std::map<std::string, double> figures;
-  const auto give = [&](const std::string& name, double value) {
-    figures[name] = value;
-    fmt::print("{:36} {:.4g}\n", name, value);
-    std::fflush(stdout);
-  };
-  constexpr Index cells_10k = 12, cells_140k = 29, cells_2m = 69;  // six tets a cell
-  const double one = force_rate(cells_140k, 1);
-  give("elastic_force_140k_tets_per_s", one);
-  give("elastic_force_threads2_speedup", force_rate(cells_140k, 2) / one);
-  give("elastic_step_140k_tets_per_s", step_rate(cells_140k, 8));
-  give("step_cost_2M_over_10k", step_rate(cells_10k, 30) / step_rate(cells_2m, 2));
-
-  const TetMesh mesh = sphere_46k();
-  fmt::print("breaking run: {} tets, 30 m/s, {:g} us\n", mesh.num_tets(), end_time * 1e6);
-  const WholeRun breaking = whole_run(mesh, true, 1, end_time);
-  give("breaking_bytes_per_tet", breaking.bytes / mesh.num_tets());
-  give("breaking_closure_error", breaking.closure_error);
-  give("breaking_over_elastic_46k", breaking.time / whole_run(mesh, false, 1, end_time).time);
-  give("breaking_threads2_speedup", breaking.time / whole_run(mesh, true, 2, end_time).time);
-  if (json.empty()) return 0;
-  std::ofstream file(json);
-  file << "{\n";
-  std::size_t left = figures.size();
-  for (const auto& [name, value] : figures) file << fmt::format("  \"{}\": {:.6g}{}\n", name, value, --left ? "," : "");
-  file << "}\n";
-  return file.good() ? 0 : 1;
+  Figures figures;
+  if (only != "breaking") elastic_figures(figures);
+  if (only != "elastic") breaking_figures(figures, end_time);
+  return json.empty() || figures.write(json) ? 0 : 1;
 }
