@@ -100,16 +100,6 @@ double mean_tet_size(const Topology& topology, std::span<const Vec4> x, const st
   return tets.empty() ? 1.0 : sum / static_cast<double>(tets.size());
 }
 
-void watch_nodes(ContactState& contact, const Topology& topology, const std::vector<Index>& tets) {
-  contact.watched_nodes.clear();
-  for (const Index t : tets)
-    contact.watched_nodes.insert(contact.watched_nodes.end(), topology.tet_nodes[at(t)].begin(),
-                                 topology.tet_nodes[at(t)].end());
-  std::sort(contact.watched_nodes.begin(), contact.watched_nodes.end());
-  contact.watched_nodes.erase(std::unique(contact.watched_nodes.begin(), contact.watched_nodes.end()),
-                              contact.watched_nodes.end());
-}
-
 }  // namespace
 
 Vec3 position(const ContactPoint& point, std::span<const Vec4> x) {
@@ -119,17 +109,15 @@ Vec3 position(const ContactPoint& point, std::span<const Vec4> x) {
 
 void rebuild_candidates(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
                         std::span<const std::uint8_t> has_records) {
-  contact.x_at_rebuild.assign(x.begin(), x.end());
+  contact.travel = 0.0;
   contact.points.clear();
   contact.candidates.clear();
-  contact.watched_nodes.clear();
   if (contact.fragments < 2) return;
   contact.free_faces = free_faces(topology);
   contact.points = contact_points(topology, contact.free_faces, contact.fragment_of_tet);
   std::vector<Index> tets;
   for (Index t = 0; t < topology.num_tets(); ++t)
     if (contact.free_faces[at(t)] != 0) tets.push_back(t);
-  watch_nodes(contact, topology, tets);
 
   std::vector<Vec3> positions(contact.points.size());
   for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = position(contact.points[i], x);
@@ -156,29 +144,19 @@ void rebuild_candidates(ContactState& contact, const Topology& topology, std::sp
     }
   });
   for (const auto& part : found) contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());
-  std::stable_sort(contact.candidates.begin(), contact.candidates.end(),
-                   [](const auto& a, const auto& b) { return a.separation < b.separation; });
 }
 
-double largest_motion(const ContactState& contact, std::span<const Vec4> x) {
-  const Index count = to_index(contact.watched_nodes.size());
-  if (count == 0) return 0.0;
-  const auto motion = [&](Index i) -> Vec4 {
-    const std::size_t node = at(contact.watched_nodes[at(i)]);
-    return x[node] - contact.x_at_rebuild[node];
+double largest_approach(std::span<const Vec4> v, double dt) {
+  struct Range {
+    Vec4 low = Vec4::Constant(1e300), high = Vec4::Constant(-1e300);
+    Range& operator+=(const Range& other) {
+      low = low.cwiseMin(other.low);
+      high = high.cwiseMax(other.high);
+      return *this;
+    }
   };
-  struct VectorSum {
-    Vec4 value = Vec4::Zero();
-    VectorSum& operator+=(const Vec4& other) { return value += other, *this; }
-    VectorSum& operator+=(const VectorSum& other) { return value += other.value, *this; }
-  };
-  const Vec4 mean = ordered_sum<VectorSum>(count, motion).value / static_cast<double>(count);
-  struct Largest {
-    double value = 0.0;
-    Largest& operator+=(double other) { return value = std::max(value, other), *this; }
-    Largest& operator+=(const Largest& other) { return *this += other.value; }
-  };
-  return std::sqrt(ordered_sum<Largest>(count, [&](Index i) { return (motion(i) - mean).squaredNorm(); }).value);
+  const Range range = ordered_sum<Range>(to_index(v.size()), [&](Index i) { return Range{v[at(i)], v[at(i)]}; });
+  return v.empty() ? 0.0 : dt * (range.high - range.low).norm();
 }
 
 }  // namespace knap

@@ -14,7 +14,7 @@ Vec3 position(const ContactPoint& point, std::span<const Vec4> x);
 void rebuild_candidates(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
                         std::span<const std::uint8_t> has_records);
 
-/// Largest displacement of the watched nodes since the rebuild, relative to their mean [m].
-double largest_motion(const ContactState& contact, std::span<const Vec4> x);
+/// Bound of the way that any two nodes come nearer to each other at velocities v [m/s] within dt [m].
+double largest_approach(std::span<const Vec4> v, double dt);
 
 }  // namespace knap

@@ -11,6 +11,8 @@ namespace knap {
 namespace {
 
 constexpr Index candidates_per_block = 1024;
+// Of the gap to a tet, what the way towards it may use up until the next look; the rest is for round-off.
+constexpr double part_of_gap = 0.999;
 
 bool by_point_and_tet(const Contact& a, const Contact& b) {
   return std::tie(a.point_key, a.tet) < std::tie(b.point_key, b.tet);
@@ -18,8 +20,8 @@ bool by_point_and_tet(const Contact& a, const Contact& b) {
 
 /// Barycentric coordinates of p in a tet and their gradients [1/m].
 struct Barycentric {
-  std::array<double, 4> lambda;
-  std::array<Vec3, 4> gradient;
+  std::array<double, 4> lambda{-1.0, -1.0, -1.0, -1.0};
+  std::array<Vec3, 4> gradient{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // left so by an inverted tet
 
   Barycentric(const TetCorners& nodes, std::span<const Vec4> x, const Vec3& p) {
     const Vec3 origin = xyz(x[at(nodes[0])]);
@@ -28,10 +30,7 @@ struct Barycentric {
     const Vec3 c = xyz(x[at(nodes[3])]) - origin;
     const Vec3 bc = b.cross(c);
     const double determinant = a.dot(bc);
-    if (determinant <= 0.0) {
-      lambda.fill(-1.0);
-      return;
-    }
+    if (determinant <= 0.0) return;
     gradient[1] = bc / determinant;
     gradient[2] = c.cross(a) / determinant;
     gradient[3] = a.cross(b) / determinant;
@@ -44,6 +43,13 @@ struct Barycentric {
     return std::all_of(lambda.begin(), lambda.end(), [](double l) { return l >= 0.0; });
   }
   double depth(std::size_t face) const { return lambda[face] / gradient[face].norm(); }
+  /// Lower bound of the distance between point and tet [m].
+  double gap() const {
+    double largest = 0.0;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (lambda[i] < 0.0 && !gradient[i].isZero(0.0)) largest = std::max(largest, -depth(i));
+    return largest;
+  }
 };
 
 /// The contact of the same point and tet in the last step, if there was one.
@@ -63,12 +69,9 @@ std::size_t nearest_free_face(unsigned free_faces, const Barycentric& coordinate
   return nearest;
 }
 
-std::optional<Contact> narrow(const ContactState& contact, const ContactCandidate& candidate, const Topology& topology,
-                              std::span<const Vec4> x) {
+Contact touching(const ContactState& contact, const ContactCandidate& candidate, const TetCorners& nodes,
+                 const Barycentric& coordinates) {
   const ContactPoint& point = contact.points[at(candidate.point)];
-  const TetCorners& nodes = topology.tet_nodes[at(candidate.tet)];
-  const Barycentric coordinates(nodes, x, position(point, x));
-  if (!coordinates.inside()) return std::nullopt;
   Contact found;
   found.point_key = point.key;
   found.tet = candidate.tet;
@@ -92,19 +95,28 @@ std::optional<Contact> narrow(const ContactState& contact, const ContactCandidat
   return found;
 }
 
+// The contact of a candidate if its point is inside; otherwise sets when to look again.
+std::optional<Contact> narrow(const ContactState& contact, ContactCandidate& candidate, const Topology& topology,
+                              std::span<const Vec4> x) {
+  const TetCorners& nodes = topology.tet_nodes[at(candidate.tet)];
+  const Barycentric coordinates(nodes, x, position(contact.points[at(candidate.point)], x));
+  if (coordinates.inside()) return touching(contact, candidate, nodes, coordinates);
+  candidate.due = contact.travel + part_of_gap * coordinates.gap();
+  return std::nullopt;
+}
+
 }  // namespace
 
-void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x, double motion) {
-  const auto reach = std::upper_bound(contact.candidates.begin(), contact.candidates.end(), 2.0 * motion,
-                                      [](double limit, const ContactCandidate& c) { return limit < c.separation; });
-  const Index count = to_index(static_cast<std::size_t>(reach - contact.candidates.begin()));
-  const Index blocks = num_blocks(count, candidates_per_block);
-  std::vector<std::vector<Contact>> found(at(blocks));
-  parallel_blocks(blocks, [&](Index block) {
+void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x) {
+  const Index count = to_index(contact.candidates.size());
+  std::vector<std::vector<Contact>> found(at(num_blocks(count, candidates_per_block)));
+  parallel_blocks(to_index(found.size()), [&](Index block) {
     const Index end = std::min(count, (block + 1) * candidates_per_block);
-    for (Index i = block * candidates_per_block; i < end; ++i)
-      if (auto touching = narrow(contact, contact.candidates[at(i)], topology, x))
-        found[at(block)].push_back(*touching);
+    for (Index i = block * candidates_per_block; i < end; ++i) {
+      ContactCandidate& candidate = contact.candidates[at(i)];
+      if (candidate.due > contact.travel) continue;
+      if (const auto contact_now = narrow(contact, candidate, topology, x)) found[at(block)].push_back(*contact_now);
+    }
   });
   contact.contacts.clear();
   for (const auto& part : found) contact.contacts.insert(contact.contacts.end(), part.begin(), part.end());

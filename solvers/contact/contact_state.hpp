@@ -18,7 +18,7 @@ struct ContactPoint {
 struct ContactCandidate {
   Index point = none;
   Index tet = none;
-  double separation = 0.0;  ///< lower bound of the distance at the rebuild [m]
+  double due = 0.0;  ///< ContactState::travel from which on they may touch [m]
 };
 
 /// A point inside a foreign tet.
@@ -35,13 +35,12 @@ struct Contact {
 
 struct ContactState {
   std::vector<Index> fragment_of_tet;    ///< strict labels, as of the last rebuild
-  std::vector<Vec4> x_at_rebuild;        ///< nodal positions then [m]
   std::vector<std::uint8_t> free_faces;  ///< per tet, bit i = face opposite corner i, as of the last rebuild
   std::vector<ContactPoint> points;
-  std::vector<ContactCandidate> candidates;  ///< by separation
-  std::vector<Index> watched_nodes;          ///< of points and candidate tets
+  std::vector<ContactCandidate> candidates;  ///< by tet
   std::vector<Contact> contacts;             ///< by point and tet
-  double skin = 0.0;                         ///< candidates are complete for relative motion up to this [m]
+  double travel = 0.0;                       ///< no two nodes have come nearer than by this since the last rebuild [m]
+  double skin = 0.0;                         ///< candidates are complete for a travel up to this [m]
   double dissipated = 0.0;                   ///< since the start [J]
   Index fragments = 1;                       ///< number of strict fragments at the last rebuild
 };

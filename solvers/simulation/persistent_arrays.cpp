@@ -47,7 +47,7 @@ constexpr auto fields(const ContactPoint*) {
 }
 constexpr auto fields(const ContactCandidate*) {
   return std::tuple{Field{"point", &ContactCandidate::point}, Field{"tet", &ContactCandidate::tet},
-                    Field{"separation", &ContactCandidate::separation}};
+                    Field{"due", &ContactCandidate::due}};
 }
 constexpr auto fields(const Contact*) {
   return std::tuple{Field{"point_key", &Contact::point_key}, Field{"tet", &Contact::tet},
@@ -208,11 +208,9 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.structs("cracks.losses", s.cracks.losses_of_vertex);
   visit.plain("cracks.vertices", s.cracks.vertices);
   visit.plain("contact.fragment_of_tet", s.contact.fragment_of_tet);
-  visit.plain("contact.x_at_rebuild", s.contact.x_at_rebuild);
   visit.plain("contact.free_faces", s.contact.free_faces);
   visit.structs("contact.points", s.contact.points);
   visit.structs("contact.candidates", s.contact.candidates);
-  visit.plain("contact.watched_nodes", s.contact.watched_nodes);
   visit.structs("contact.contacts", s.contact.contacts);
   visit.plain("branch.groups", s.elastic.branch.groups);
   visit_single(visit, "branch", s.elastic.branch);
@@ -236,7 +234,7 @@ Checkpoint make_checkpoint(const Simulation& s) {
   Checkpoint checkpoint;
   visit_persistent(Writer{checkpoint}, s);
   checkpoint.doubles["scalars"] = {s.cracks.cracked_area, static_cast<double>(s.cracks.last_damage_step),
-                                   s.contact.dissipated, static_cast<double>(s.contact.fragments)};
+                                   s.contact.dissipated, static_cast<double>(s.contact.fragments), s.contact.travel};
   checkpoint.texts["mesh"] = mesh_hash(s);
   return checkpoint;
 }
@@ -253,6 +251,7 @@ void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
   s.cracks.last_damage_step = static_cast<std::int64_t>(scalars.at(1));
   s.contact.dissipated = scalars.at(2);
   s.contact.fragments = static_cast<Index>(scalars.at(3));
+  s.contact.travel = scalars.at(4);
   for (Index slot = 0; slot < to_index(s.cracks.faces.size()); ++slot)
     s.cracks.face_of_facet[at(s.cracks.faces[at(slot)].facet)] = slot;
   group_records(s.cracks);
