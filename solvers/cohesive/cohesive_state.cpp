@@ -1,5 +1,7 @@
 #include "cohesive/cohesive_state.hpp"
 
+#include <algorithm>
+
 namespace knap {
 namespace {
 
@@ -7,6 +9,30 @@ void list_vertices(CrackState& cracks) {
   cracks.vertices.clear();
   for (Index v = 0; v + 1 < to_index(cracks.record_offsets.size()); ++v)
     if (cracks.record_offsets[at(v)] != cracks.record_offsets[at(v) + 1]) cracks.vertices.push_back(v);
+}
+
+std::vector<Index> facets(const CrackState& cracks) {
+  std::vector<Index> all;
+  all.reserve(cracks.faces.size());
+  for (const CrackFace& face : cracks.faces) all.push_back(face.facet);
+  return all;
+}
+
+// Removes the records of facets that have no face any more; the others follow their faces.
+void keep_records_with_faces(CrackState& cracks, std::span<const Index> facet_of_old_slot) {
+  Index kept = 0;
+  Index next = cracks.record_offsets[0];
+  for (Index v = 0; v + 1 < to_index(cracks.record_offsets.size()); ++v) {
+    const Index end = cracks.record_offsets[at(v) + 1];
+    cracks.record_offsets[at(v)] = kept;
+    for (; next < end; ++next) {
+      CrackRecord record = cracks.records[at(next)];
+      record.face = cracks.face_of_facet[at(facet_of_old_slot[at(record.face)])];
+      if (record.face != none) cracks.records[at(kept++)] = record;
+    }
+  }
+  cracks.record_offsets.back() = kept;
+  cracks.records.resize(at(kept));
 }
 
 }  // namespace
@@ -21,65 +47,42 @@ CrackState make_crack_state(const Topology& topology) {
 }
 
 void add_cracks(CrackState& cracks, std::span<const CrackFace> faces, std::span<const VertexRecord> records) {
-  std::vector<CrackFace> merged_faces;
-  merged_faces.reserve(cracks.faces.size() + faces.size());
-  std::vector<Index> slot_of_old(cracks.faces.size()), slot_of_new(faces.size());
-  for (std::size_t i = 0, j = 0; i < cracks.faces.size() || j < faces.size();) {
-    const bool take_old = j == faces.size() || (i < cracks.faces.size() && cracks.faces[i].facet < faces[j].facet);
-    (take_old ? slot_of_old[i] : slot_of_new[j]) = to_index(merged_faces.size());
-    merged_faces.push_back(take_old ? cracks.faces[i++] : faces[j++]);
-    cracks.face_of_facet[at(merged_faces.back().facet)] = to_index(merged_faces.size()) - 1;
+  const Index first_face = to_index(cracks.faces.size());
+  for (const CrackFace& face : faces) {
+    cracks.face_of_facet[at(face.facet)] = to_index(cracks.faces.size());
+    cracks.faces.push_back(face);
   }
-  std::vector<CrackRecord> merged;
-  merged.reserve(cracks.records.size() + records.size());
-  auto added = records.begin();
-  for (Index v = 0; v + 1 < to_index(cracks.record_offsets.size()); ++v) {
-    const auto old = cracks.records_of_vertex(v);
-    cracks.record_offsets[at(v)] = to_index(merged.size());
-    for (CrackRecord record : old) {
-      record.face = slot_of_old[at(record.face)];
-      merged.push_back(record);
+  // From the back, so that every record moves at most once and only by the number of those added before it.
+  auto from = cracks.records.end() - cracks.records.begin();
+  cracks.records.resize(cracks.records.size() + records.size());
+  auto to = to_index(cracks.records.size());
+  auto added = records.rbegin();
+  for (Index v = to_index(cracks.record_offsets.size()) - 2; v >= 0 && added != records.rend(); --v) {
+    const auto begin = cracks.record_offsets[at(v)];
+    cracks.record_offsets[at(v + 1)] = to;
+    for (; added != records.rend() && added->vertex == v; ++added) {
+      CrackRecord& record = cracks.records[at(--to)];
+      record = added->record;
+      record.face += first_face;
     }
-    for (; added != records.end() && added->vertex == v; ++added) {
-      merged.push_back(added->record);
-      merged.back().face = slot_of_new[at(added->record.face)];
-    }
+    while (from > begin) cracks.records[at(--to)] = cracks.records[static_cast<std::size_t>(--from)];
   }
-  cracks.record_offsets.back() = to_index(merged.size());
-  cracks.faces.swap(merged_faces);
-  cracks.records.swap(merged);
   list_vertices(cracks);
 }
 
-void drop_ended_faces(CrackState& cracks) {
-  if (std::none_of(cracks.faces.begin(), cracks.faces.end(), [](const CrackFace& face) { return face.has_ended(); }))
+void tidy_faces(CrackState& cracks) {
+  const auto by_facet = [](const CrackFace& a, const CrackFace& b) { return a.facet < b.facet; };
+  const auto ended = [](const CrackFace& face) { return face.has_ended(); };
+  if (std::none_of(cracks.faces.begin(), cracks.faces.end(), ended) &&
+      std::is_sorted(cracks.faces.begin(), cracks.faces.end(), by_facet))
     return;
-  std::vector<Index> new_slot(cracks.faces.size(), none);
-  Index kept_faces = 0;
-  for (std::size_t slot = 0; slot < cracks.faces.size(); ++slot) {
-    const CrackFace face = cracks.faces[slot];
-    if (face.has_ended()) {
-      cracks.face_of_facet[at(face.facet)] = none;
-      continue;
-    }
-    new_slot[slot] = kept_faces;
-    cracks.face_of_facet[at(face.facet)] = kept_faces;
-    cracks.faces[at(kept_faces++)] = face;
-  }
-  cracks.faces.resize(at(kept_faces));
-  Index kept = 0;
-  Index next = cracks.record_offsets[0];
-  for (Index v = 0; v + 1 < to_index(cracks.record_offsets.size()); ++v) {
-    const Index end = cracks.record_offsets[at(v) + 1];
-    cracks.record_offsets[at(v)] = kept;
-    for (; next < end; ++next) {
-      CrackRecord record = cracks.records[at(next)];
-      record.face = new_slot[at(record.face)];
-      if (record.face != none) cracks.records[at(kept++)] = record;
-    }
-  }
-  cracks.record_offsets.back() = kept;
-  cracks.records.resize(at(kept));
+  const std::vector<Index> facet_of_old_slot = facets(cracks);
+  for (const Index facet : facet_of_old_slot) cracks.face_of_facet[at(facet)] = none;
+  std::erase_if(cracks.faces, ended);
+  std::sort(cracks.faces.begin(), cracks.faces.end(), by_facet);
+  for (std::size_t slot = 0; slot < cracks.faces.size(); ++slot)
+    cracks.face_of_facet[at(cracks.faces[slot].facet)] = to_index(slot);
+  keep_records_with_faces(cracks, facet_of_old_slot);
   list_vertices(cracks);
   group_records(cracks);
 }

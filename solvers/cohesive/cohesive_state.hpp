@@ -77,8 +77,8 @@ struct CrackLosses {
   }
 };
 
-/// Everything that cracks have brought into a run. Faces are ordered by facet and records by vertex, so that a sweep
-/// over the vertices walks both in about the order of memory.
+/// Everything that cracks have brought into a run. Records are ordered by vertex, faces by facet as far as tidy_faces
+/// has seen them, so that a sweep over the vertices walks both in about the order of memory.
 struct CrackState {
   std::vector<CrackFace> faces;
   std::vector<Index> face_of_facet;  ///< facet -> slot in faces, none = not cracked or handed over
@@ -102,15 +102,14 @@ struct CrackState {
 /// No crack anywhere.
 CrackState make_crack_state(const Topology& topology);
 
-/// Adds faces, in ascending order of facet, and their records, in ascending order of vertex. The records' `face` is the
-/// position in `faces` here.
+/// Adds faces and their records, in ascending order of vertex. The records' `face` is the position in `faces` here.
 struct VertexRecord {
   Index vertex = none;
   CrackRecord record;
 };
 void add_cracks(CrackState& cracks, std::span<const CrackFace> faces, std::span<const VertexRecord> records);
 
-/// Removes the ended faces and their records.
-void drop_ended_faces(CrackState& cracks);
+/// Removes the ended faces and their records and puts the faces in the order of their facets.
+void tidy_faces(CrackState& cracks);
 
 }  // namespace knap

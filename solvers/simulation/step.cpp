@@ -99,12 +99,10 @@ void detect_contacts(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
   if (looks_for_fragments(s)) look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
-  double motion = largest_motion(s.contact, s.nodes.x);
-  if (2.0 * motion > s.contact.skin) {
+  s.contact.travel += largest_approach(s.nodes.v_before, s.clock.dt);  // the last drift's velocities
+  if (s.contact.travel > s.contact.skin)
     rebuild_candidates(s.contact, s.topology, s.nodes.x, vertices_with_records(s.cracks));
-    motion = 0.0;
-  }
-  refresh_contacts(s.contact, s.topology, s.nodes.x, motion);
+  refresh_contacts(s.contact, s.topology, s.nodes.x);
 }
 
 void apply_crack_impulses(Simulation& s) {
@@ -141,7 +139,7 @@ void book_losses(Simulation& s) {
   for (const Contact& contact : s.contact.contacts)
     changed.insert(changed.end(), contact.nodes.begin(), contact.nodes.end());
   settle_crack_losses(s.cracks, s.topology, s.nodes, std::move(changed), impulse_options(s));
-  if (looks_for_fragments(s)) drop_ended_faces(s.cracks);
+  if (looks_for_fragments(s)) tidy_faces(s.cracks);
 }
 
 StepStatus check_energies(Simulation& s) {
