@@ -1,5 +1,6 @@
 // The project's figures by name: elastic kernel and step, growth with size, and a whole breaking run against its
-// elastic twin. Usage: figures [--json FILE] [--time SECONDS of the breaking run, default 20e-6] [--only elastic|breaking]
+// elastic twin. Usage: figures [--json FILE] [--time SECONDS of the breaking run, default 20e-6] [--only
+// elastic|breaking]
 #include <fmt/format.h>
 
 #include <chrono>

@@ -6,6 +6,8 @@ namespace knap {
 namespace {
 
 constexpr Index facets_per_block = 2048;
+// The stresses of a facet's tets lie anywhere in memory: asked for this many facets ahead.
+constexpr Index prefetch_distance = 24;
 
 Vec3 facet_normal(const Topology& topology, std::span<const Vec4> x, Index facet) {
   const Vec3 a = xyz(x[at(topology.facet_node(facet, 0, 0))]);
@@ -33,6 +35,8 @@ std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::sp
   parallel_blocks(blocks, [&](Index block) {
     const Index end = std::min(topology.num_facets(), (block + 1) * facets_per_block);
     for (Index facet = block * facets_per_block; facet < end; ++facet) {
+      for (const Index tet : topology.facet_tets[at(std::min(facet + prefetch_distance, end - 1))])
+        __builtin_prefetch(&stress[at(tet)]);
       const auto& [minus, plus] = topology.facet_tets[at(facet)];
       const TetStress& sa = stress[at(minus)];
       const TetStress& sb = stress[at(plus)];

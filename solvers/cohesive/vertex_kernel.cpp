@@ -220,15 +220,19 @@ HWY_INLINE Resistance resistance(const ImpulseCoefficients& k, M virgin, V stren
   return {hn::IfThenElseZero(virgin, capacity), friction_of(k.law, damage)};
 }
 
-/// Rotation velocities of nodes a and b.
+// The indices of the lanes in the mask, none elsewhere.
+HWY_INLINE hn::Vec<Word> only(M mask, hn::Vec<Word> indices) {
+  return hn::IfThenElse(hn::RebindMask(Word(), mask), indices, hn::Set(Word(), none));
+}
+
+/// Rotation velocities of nodes a and b, zero where the face is the idle one.
 struct Spin {
   Vec3V a, b;
 };
-HWY_INLINE Spin rotation_velocities(const Addresses& faces, M rotating, const Vec3V& xa, const Vec3V& xb) {
+HWY_INLINE Spin rotation_velocities(const Addresses& faces, const Vec3V& xa, const Vec3V& xb) {
   const Vec3V rotation = columns(load_rows(Shifted<4 * rotation_row>{faces})).xyz();
   const Vec3V centre = columns(load_rows(Shifted<4 * rotation_row + 4>{faces})).xyz();
-  return {where(rotating, cross(rotation, difference(xa, centre))),
-          where(rotating, cross(rotation, difference(xb, centre)))};
+  return {cross(rotation, difference(xa, centre)), cross(rotation, difference(xb, centre))};
 }
 
 /// The impulse nearest to (normal_part, tangential) that the records can bear: capacity in tension, Coulomb cone and
@@ -236,12 +240,14 @@ HWY_INLINE Spin rotation_velocities(const Addresses& faces, M rotating, const Ve
 HWY_INLINE Vec3V admissible(const Vec3V& n, V beta, V inverse_beta, V shear_capacity, V friction, V normal_part,
                             const Vec3V& tangential) {
   const M tension = hn::Lt(normal_part, zero());
-  const V bounded = hn::Max(normal_part, hn::Neg(hn::Mul(inverse_beta, shear_capacity)));
+  const V most_tension = hn::Neg(hn::Mul(inverse_beta, shear_capacity));
+  const V bounded = hn::Max(normal_part, most_tension);
   const V part = hn::IfThenElse(tension, bounded, normal_part);
   const V scaled_part = hn::Mul(beta, part);
   const V tension_limit2 = hn::Mul(hn::Sub(shear_capacity, scaled_part), hn::Add(shear_capacity, scaled_part));
   const V limit = hn::MulAdd(friction, part, shear_capacity);
-  const V limit2 = hn::IfThenElse(tension, hn::Max(zero(), tension_limit2), hn::Mul(limit, limit));
+  const V left2 = hn::IfThenZeroElse(hn::Le(normal_part, most_tension), hn::Max(zero(), tension_limit2));
+  const V limit2 = hn::IfThenElse(tension, left2, hn::Mul(limit, limit));
   const V size2 = dot(tangential, tangential);
   const V scale = hn::IfThenElse(hn::Gt(size2, limit2), hn::Sqrt(hn::Div(limit2, size2)), number(1.0));
   return scaled_sum(part, n, scaled(scale, tangential));
@@ -345,8 +351,8 @@ HWY_INLINE void start_row(const Lanes& l, Index i, Spent& spent) {
   const Index lane0 = l.lane0;
   const RecordSlots& slots = l.slots(i);
   set_local_offsets(l, slots, row);
-  const Addresses faces =
-      addresses<log_row>(l.view.faces, face_rows(load_indices(slots.couple.data() + lane0)), &l.workspace.idle_face);
+  const auto face_indices = face_rows(load_indices(slots.couple.data() + lane0));
+  const Addresses faces = addresses<log_row>(l.view.faces, face_indices, &l.workspace.idle_face);
   const Gathered g =
       gather(addresses<log_record>(l.view.records, load_indices(slots.record.data() + lane0), &l.workspace.idle_record),
              faces);
@@ -385,7 +391,8 @@ HWY_INLINE void start_row(const Lanes& l, Index i, Spent& spent) {
   const M rotating = is_rotating(g.action);
   row.rotates = !hn::AllFalse(Tag(), rotating);
   if (row.rotates) {
-    const Spin spin = rotation_velocities(faces, rotating, xa.xyz(), xb.xyz());
+    const Spin spin = rotation_velocities(
+        addresses<log_row>(l.view.faces, only(rotating, face_indices), &l.workspace.idle_face), xa.xyz(), xb.xyz());
     store(scaled(hn::Div(one, xa.w), spin.a), l.workspace.spins[at(i)].a, lane0);
     store(scaled(hn::Div(one, xb.w), spin.b), l.workspace.spins[at(i)].b, lane0);
     change_a = sum(change_a, spin.a);
@@ -493,42 +500,74 @@ HWY_INLINE void add_damage_losses(const Lanes& l, const Spent& spent) {
 }
 
 // Records, faces and nodes of a group lie anywhere in memory: asked for ahead, they come while the group before is
-// solved. Where there are none the address is of no use, which does not harm.
-HWY_INLINE void prefetch_slots(const ImpulseView& view, const RecordSlots& slots) {
-  const auto* faces = reinterpret_cast<const Vec4*>(view.faces);
-  for (std::size_t lane = 0; lane < at(group_lanes); ++lane) {
-    __builtin_prefetch(view.records + slots.record[lane], 1);
-    __builtin_prefetch(faces + slots.couple[lane], 1);
-    __builtin_prefetch(faces + (slots.couple[lane] & ~(rows_per_face - 1)), 1);
-  }
-}
+// solved, into the second-level cache, for the first holds the local rows. Where there are none the address is of no
+// use, which does not harm.
+HWY_INLINE void prefetch(const void* address) { __builtin_prefetch(address, 0, 2); }
+HWY_INLINE void prefetch_to_write(const void* address) { __builtin_prefetch(address, 1, 2); }
+
 HWY_INLINE void prefetch_nodes(const ImpulseView& view, const PerLane<Index>& nodes) {
   for (const Index node : nodes) {
     const std::ptrdiff_t first = 4 * std::ptrdiff_t{node};
-    __builtin_prefetch(view.v + first, 1);
-    __builtin_prefetch(view.x + first);
-    __builtin_prefetch(view.v_before + first);
-    __builtin_prefetch(view.mass + node);
+    prefetch_to_write(view.v + first);
+    prefetch(view.x + first);
+    prefetch(view.v_before + first);
+    prefetch(view.mass + node);
+  }
+}
+HWY_INLINE const Vec4* first_row_of_face(const ImpulseView& view, Index couple) {
+  return reinterpret_cast<const Vec4*>(view.faces) + (couple & ~(rows_per_face - 1));
+}
+HWY_INLINE void prefetch_records(const ImpulseView& view, const RecordSlots& slots) {
+  for (std::size_t lane = 0; lane < at(group_lanes); ++lane) {
+    prefetch_to_write(view.records + slots.record[lane]);
+    prefetch(first_row_of_face(view, slots.couple[lane]));
+  }
+}
+// Once the first lines of the faces are there.
+HWY_INLINE void prefetch_couples(const ImpulseView& view, const RecordSlots& slots) {
+  for (std::size_t lane = 0; lane < at(group_lanes); ++lane) {
+    const Index couple = slots.couple[lane];
+    if (couple == none) continue;
+    prefetch_to_write(reinterpret_cast<const Vec4*>(view.faces) + couple);
+    const Vec4* face = first_row_of_face(view, couple);
+    if ((*face)[3] != face_action::none) prefetch(face + rotation_row);
   }
 }
 
-// One sweep over the records of a group; meanwhile another group comes.
-HWY_INLINE void sweep_group(const Lanes& l, const RecordGroup* next) {
+/// The group to be solved next, to be asked for meanwhile; may be null.
+struct NextGroup {
+  const ImpulseView& view;
+  const RecordGroup* group;
+
+  HWY_INLINE void ask_for_nodes(Index i) const {
+    if (group && i < group->num_nodes) prefetch_nodes(view, view.groups->nodes[at(group->first_nodes + i)]);
+  }
+  HWY_INLINE void ask_for_records(Index i) const {
+    if (group && i < group->num_slots) prefetch_records(view, view.groups->slots[at(group->first_slots + i)]);
+  }
+  HWY_INLINE void ask_for_couples(Index i) const {
+    if (group && i < group->num_slots) prefetch_couples(view, view.groups->slots[at(group->first_slots + i)]);
+  }
+};
+
+HWY_INLINE bool solve_lanes(const Lanes& l, const NextGroup& next) {
   const V beta = number(l.k.law.beta), inverse_beta = number(1.0 / l.k.law.beta);
-  for (Index i = 0; i < l.group.num_slots; ++i) {
-    if (next && i < next->num_slots) prefetch_slots(l.view, l.view.groups->slots[at(next->first_slots + i)]);
-    if (next && i < next->num_nodes) prefetch_nodes(l.view, l.view.groups->nodes[at(next->first_nodes + i)]);
-    relax_row(l, l.workspace.rows[at(i)], beta, inverse_beta);
-  }
-}
-
-HWY_INLINE bool solve_lanes(const Lanes& l, const RecordGroup* next) {
   Spent spent = nothing_spent();
   load_nodes(l);
-  for (Index i = 0; i < l.group.num_slots; ++i) start_row(l, i, spent);
-  for (int sweep = 0; sweep < l.k.sweeps; ++sweep) sweep_group(l, sweep == 0 ? next : nullptr);
+  for (Index i = 0; i < l.group.num_slots; ++i) {
+    next.ask_for_records(i);
+    start_row(l, i, spent);
+  }
+  for (int sweep = 0; sweep < l.k.sweeps; ++sweep)
+    for (Index i = 0; i < l.group.num_slots; ++i) {
+      if (sweep == 0) next.ask_for_nodes(i);
+      relax_row(l, l.workspace.rows[at(i)], beta, inverse_beta);
+    }
   store_nodes(l);
-  for (Index i = 0; i < l.group.num_slots; ++i) finish_row(l, i, spent);
+  for (Index i = 0; i < l.group.num_slots; ++i) {
+    next.ask_for_couples(i);
+    finish_row(l, i, spent);
+  }
   add_damage_losses(l, spent);
   store_step_losses(l.view, l.group.vertex.data() + l.lane0, spent);
   return !hn::AllFalse(Tag(), spent.damaged);
@@ -541,7 +580,7 @@ bool SolveGroups(const ImpulseView& view, const ImpulseCoefficients& k, Index fi
   for (Index g = first; g < last; ++g) {
     const RecordGroup* next = at(g) + 1 < groups.size() ? &groups[at(g) + 1] : nullptr;
     for (Index lane0 = 0; lane0 < group_lanes; lane0 += width)
-      damaged |= solve_lanes({view, k, groups[at(g)], workspace, lane0}, lane0 == 0 ? next : nullptr);
+      damaged |= solve_lanes({view, k, groups[at(g)], workspace, lane0}, {view, lane0 == 0 ? next : nullptr});
   }
   return damaged;
 }
@@ -557,9 +596,9 @@ HWY_INLINE Vec3V mean_velocity(const ImpulseView& view, hn::Vec<Word> nodes, con
 }
 
 /// Momentum that the rotations have given to one node of each record.
-HWY_INLINE Spin rotation_momenta(const ImpulseView& view, const Addresses& faces, M rotating, hn::Vec<Word> a,
-                                 hn::Vec<Word> b, const Vec4& idle) {
-  const Spin spin = rotation_velocities(faces, rotating, columns(load_rows(addresses<log_row>(view.x, a, &idle))).xyz(),
+HWY_INLINE Spin rotation_momenta(const ImpulseView& view, const Addresses& faces, hn::Vec<Word> a, hn::Vec<Word> b,
+                                 const Vec4& idle) {
+  const Spin spin = rotation_velocities(faces, columns(load_rows(addresses<log_row>(view.x, a, &idle))).xyz(),
                                         columns(load_rows(addresses<log_row>(view.x, b, &idle))).xyz());
   const auto mass = [&](hn::Vec<Word> nodes)
                         HWY_ATTR { return hn::GatherIndex(Tag(), view.mass, hn::Max(nodes, hn::Zero(Word()))); };
@@ -574,7 +613,8 @@ HWY_INLINE void book_row(const ImpulseView& view, const ImpulseCoefficients& k, 
   HWY_ALIGN Index face_of_record[width];
   for (Index lane = 0; lane < width; ++lane)
     face_of_record[lane] = records[lane] == none ? none : view.records[records[lane]].face;
-  const Addresses faces = addresses<log_row + 3>(view.faces, load_indices(face_of_record), &workspace.idle_face);
+  const auto face_indices = load_indices(face_of_record);
+  const Addresses faces = addresses<log_row + 3>(view.faces, face_indices, &workspace.idle_face);
   const Gathered g = gather(at_records, faces);
   const auto a = upper_half(g.face_and_a), b = lower_half(g.b_and_rest);
   const Vec3V mean_a = mean_velocity(view, a, workspace.idle_node),
@@ -583,7 +623,9 @@ HWY_INLINE void book_row(const ImpulseView& view, const ImpulseCoefficients& k, 
   book_impulses({g.normal, g.impulse, r.shear_capacity, r.friction, g.virgin}, difference(mean_b, mean_a), spent);
   const M rotating = is_rotating(g.action);
   if (hn::AllFalse(Tag(), rotating)) return;
-  book_rotations(rotation_momenta(view, faces, rotating, a, b, workspace.idle_node), mean_a, mean_b, spent);
+  const Addresses rotating_faces =
+      addresses<log_row + 3>(view.faces, only(rotating, face_indices), &workspace.idle_face);
+  book_rotations(rotation_momenta(view, rotating_faces, a, b, workspace.idle_node), mean_a, mean_b, spent);
 }
 
 void BookVertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
