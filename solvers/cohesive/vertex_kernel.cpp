@@ -628,11 +628,27 @@ HWY_INLINE void book_row(const ImpulseView& view, const ImpulseCoefficients& k, 
   book_rotations(rotation_momenta(view, rotating_faces, a, b, workspace.idle_node), mean_a, mean_b, spent);
 }
 
+HWY_INLINE void prefetch_records_of(const ImpulseView& view, Index vertex) {
+  for (Index r = view.record_offsets[vertex]; r < view.record_offsets[vertex + 1]; ++r) prefetch(view.records + r);
+}
+HWY_INLINE void prefetch_surroundings_of(const ImpulseView& view, Index vertex) {
+  for (Index r = view.record_offsets[vertex]; r < view.record_offsets[vertex + 1]; ++r) {
+    const CrackRecord& record = view.records[r];
+    prefetch(view.faces + record.face);
+    for (const std::ptrdiff_t node : {record.node_a, record.node_b}) {
+      prefetch(view.v + 4 * node);
+      prefetch(view.v_before + 4 * node);
+    }
+  }
+}
+
 void BookVertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
                   ImpulseWorkspace& workspace) {
   PerLane<Index> vertex;
   vertex.fill(none);
   std::copy(vertices.begin(), vertices.end(), vertex.begin());
+  for (const Index v : vertices) prefetch_records_of(view, v);
+  for (const Index v : vertices) prefetch_surroundings_of(view, v);
   for (Index lane0 = 0; lane0 < group_lanes; lane0 += width) {
     Spent spent = nothing_spent();
     bool any = true;

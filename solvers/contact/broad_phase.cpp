@@ -14,13 +14,22 @@ constexpr Index tets_per_block = 512;
 
 using Cell = Eigen::Vector3i;
 
+/// A contact point in the grid, with all that the search reads.
+struct GridPoint {
+  Vec3 position = Vec3::Zero();  ///< [m]
+  Cell cell = Cell::Zero();
+  Index point = none;  ///< in ContactState::points
+  Index fragment = none;
+};
+
 /// Points sorted into the cells of an unbounded regular grid, the cells hashed into buckets: fragments that fly far
 /// cost nothing.
 struct PointGrid {
   double cell_size = 1.0;
   std::uint32_t mask = 0;
-  std::vector<Cell> cell_of_point;
-  Csr points_of_bucket;
+  std::vector<Index> offsets;             ///< bucket b has points [offsets[b], offsets[b + 1])
+  std::vector<GridPoint> points;          ///< by bucket
+  std::vector<Index> fragment_of_bucket;  ///< the only one with points in it, none = several
 
   Cell cell(const Vec3& p) const {
     // Beyond a billion cells all is one cell: slow there, but right.
@@ -32,31 +41,52 @@ struct PointGrid {
   }
 };
 
-PointGrid make_grid(const std::vector<Vec3>& positions, double cell_size) {
+void note_fragments(PointGrid& grid) {
+  grid.fragment_of_bucket.assign(grid.offsets.size() - 1, none);
+  for (std::size_t bucket = 0; bucket + 1 < grid.offsets.size(); ++bucket) {
+    const std::span points(grid.points.data() + grid.offsets[bucket], grid.points.data() + grid.offsets[bucket + 1]);
+    const auto same = [&points](const GridPoint& point) { return point.fragment == points.front().fragment; };
+    if (!points.empty() && std::all_of(points.begin(), points.end(), same))
+      grid.fragment_of_bucket[bucket] = points.front().fragment;
+  }
+}
+
+PointGrid make_grid(const std::vector<ContactPoint>& points, std::span<const Vec4> x, double cell_size) {
   PointGrid grid;
   grid.cell_size = cell_size;
-  const std::uint32_t buckets = std::bit_ceil(static_cast<std::uint32_t>(2 * positions.size() + 1));
+  const std::uint32_t buckets = std::bit_ceil(static_cast<std::uint32_t>(2 * points.size() + 1));
   grid.mask = buckets - 1;
-  std::vector<Index> bucket_of_point(positions.size());
-  grid.cell_of_point.resize(positions.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    grid.cell_of_point[i] = grid.cell(positions[i]);
-    bucket_of_point[i] = grid.bucket(grid.cell_of_point[i]);
+  std::vector<GridPoint> unsorted;
+  std::vector<Index> bucket_of_point;
+  unsorted.reserve(points.size());
+  bucket_of_point.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vec3 p = position(points[i], x);
+    unsorted.push_back({p, grid.cell(p), to_index(i), points[i].fragment});
+    bucket_of_point.push_back(grid.bucket(unsorted.back().cell));
   }
-  grid.points_of_bucket = make_csr(static_cast<Index>(buckets), bucket_of_point);
+  Csr points_of_bucket = make_csr(static_cast<Index>(buckets), bucket_of_point);
+  grid.offsets = std::move(points_of_bucket.offsets);
+  grid.points.reserve(points.size());
+  for (const Index i : points_of_bucket.items) grid.points.push_back(unsorted[at(i)]);
+  note_fragments(grid);
   return grid;
 }
 
-/// Calls visit(point) for the points in the cells that a box touches.
+/// Calls visit(point) for the points in a box that belong to other fragments.
 template <class Visit>
-void visit_points(const PointGrid& grid, const Eigen::AlignedBox3d& box, Visit&& visit) {
+void visit_points(const PointGrid& grid, const Eigen::AlignedBox3d& box, Index fragment, Visit&& visit) {
   const Cell low = grid.cell(box.min()), high = grid.cell(box.max());
   for (int k = low.z(); k <= high.z(); ++k)
     for (int j = low.y(); j <= high.y(); ++j)
       for (int i = low.x(); i <= high.x(); ++i) {
         const Cell cell(i, j, k);
-        for (const Index p : grid.points_of_bucket[grid.bucket(cell)])
-          if (grid.cell_of_point[at(p)] == cell) visit(p);
+        const Index bucket = grid.bucket(cell);
+        if (grid.fragment_of_bucket[at(bucket)] == fragment) continue;
+        for (Index p = grid.offsets[at(bucket)]; p < grid.offsets[at(bucket + 1)]; ++p) {
+          const GridPoint& point = grid.points[at(p)];
+          if (point.fragment != fragment && point.cell == cell && box.contains(point.position)) visit(point);
+        }
       }
 }
 
@@ -100,6 +130,37 @@ double mean_tet_size(const Topology& topology, std::span<const Vec4> x, const st
   return tets.empty() ? 1.0 : sum / static_cast<double>(tets.size());
 }
 
+std::vector<Index> tets_with_free_faces(std::span<const std::uint8_t> free_faces) {
+  std::vector<Index> tets;
+  for (std::size_t t = 0; t < free_faces.size(); ++t)
+    if (free_faces[t] != 0) tets.push_back(to_index(t));
+  return tets;
+}
+
+/// What the search reads beside the contact's own state.
+struct Surroundings {
+  const Topology& topology;
+  std::span<const Vec4> x;
+  std::span<const std::uint8_t> has_records;
+  const PointGrid& grid;
+};
+
+void add_candidates_of_tet(const ContactState& contact, const Surroundings& here, Index tet,
+                           std::vector<ContactCandidate>& found) {
+  const TetCorners& nodes = here.topology.tet_nodes[at(tet)];
+  Eigen::AlignedBox3d box;
+  for (const Index node : nodes) box.extend(Vec3(xyz(here.x[at(node)])));
+  box.min().array() -= contact.skin;
+  box.max().array() += contact.skin;
+  const TetPlanes planes(nodes, here.x);
+  visit_points(here.grid, box, contact.fragment_of_tet[at(tet)], [&](const GridPoint& point) {
+    const double separation = planes.distance_bound(point.position);
+    if (separation > contact.skin) return;
+    if (joined_by_records(contact.points[at(point.point)], tet, here.topology, here.has_records)) return;
+    found.push_back({point.point, tet, separation});
+  });
+}
+
 }  // namespace
 
 Vec3 position(const ContactPoint& point, std::span<const Vec4> x) {
@@ -115,33 +176,14 @@ void rebuild_candidates(ContactState& contact, const Topology& topology, std::sp
   if (contact.fragments < 2) return;
   contact.free_faces = free_faces(topology);
   contact.points = contact_points(topology, contact.free_faces, contact.fragment_of_tet);
-  std::vector<Index> tets;
-  for (Index t = 0; t < topology.num_tets(); ++t)
-    if (contact.free_faces[at(t)] != 0) tets.push_back(t);
-
-  std::vector<Vec3> positions(contact.points.size());
-  for (std::size_t i = 0; i < positions.size(); ++i) positions[i] = position(contact.points[i], x);
-  const PointGrid grid = make_grid(positions, mean_tet_size(topology, x, tets));
-
-  const Index blocks = num_blocks(to_index(tets.size()), tets_per_block);
-  std::vector<std::vector<ContactCandidate>> found(at(blocks));
-  parallel_blocks(blocks, [&](Index block) {
+  const std::vector<Index> tets = tets_with_free_faces(contact.free_faces);
+  const PointGrid grid = make_grid(contact.points, x, mean_tet_size(topology, x, tets));
+  const Surroundings here{topology, x, has_records, grid};
+  std::vector<std::vector<ContactCandidate>> found(at(num_blocks(to_index(tets.size()), tets_per_block)));
+  parallel_blocks(to_index(found.size()), [&](Index block) {
     const Index end = std::min(to_index(tets.size()), (block + 1) * tets_per_block);
-    for (Index k = block * tets_per_block; k < end; ++k) {
-      const Index tet = tets[at(k)];
-      Eigen::AlignedBox3d box;
-      for (const Index node : topology.tet_nodes[at(tet)]) box.extend(Vec3(xyz(x[at(node)])));
-      box.min().array() -= contact.skin;
-      box.max().array() += contact.skin;
-      const TetPlanes planes(topology.tet_nodes[at(tet)], x);
-      visit_points(grid, box, [&](Index p) {
-        const ContactPoint& point = contact.points[at(p)];
-        if (point.fragment == contact.fragment_of_tet[at(tet)] || !box.contains(positions[at(p)])) return;
-        const double separation = planes.distance_bound(positions[at(p)]);
-        if (separation > contact.skin || joined_by_records(point, tet, topology, has_records)) return;
-        found[at(block)].push_back({p, tet, separation});
-      });
-    }
+    for (Index k = block * tets_per_block; k < end; ++k)
+      add_candidates_of_tet(contact, here, tets[at(k)], found[at(block)]);
   });
   for (const auto& part : found) contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());
 }
