@@ -15,6 +15,7 @@ void add_line(std::string& text, std::string_view label, const std::string& valu
 }
 
 std::string bar(double share, bool utf8) {
+  if (!std::isfinite(share)) return "";
   const double filled = std::clamp(share, 0.0, 1.0) * bar_width;
   if (!utf8) return std::string(static_cast<std::size_t>(std::lround(filled)), '#');
   static constexpr std::array<const char*, 8> parts{"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
