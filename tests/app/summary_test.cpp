@@ -9,6 +9,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 Simulation finished() {
   Simulation s;
@@ -22,6 +23,20 @@ RunOutcome in_pieces(Index count) {
   outcome.damage.measures.count = outcome.strict.measures.count = count;
   outcome.rebound.tangential = std::numeric_limits<double>::quiet_NaN();
   return outcome;
+}
+
+TEST(Summary, OfAWholeParticleSaysSoAndGivesItsCracksApart) {
+  RunOutcome outcome = in_pieces(1);
+  EXPECT_THAT(summary(finished(), outcome, "r", false), AllOf(HasSubstr("whole"), Not(HasSubstr("cracks"))));
+  outcome.cracks.area = 2e-6;
+  EXPECT_THAT(summary(finished(), outcome, "r", false),
+              AllOf(HasSubstr("whole, in one piece\n"), HasSubstr("cracks            2 mm2"), Not(HasSubstr("pieces")),
+                    Not(HasSubstr("largest"))));
+}
+
+TEST(Summary, OfPiecesCountsThem) {
+  EXPECT_THAT(summary(finished(), in_pieces(3), "r", false),
+              AllOf(HasSubstr("3 in all"), HasSubstr("largest piece"), Not(HasSubstr("whole"))));
 }
 
 TEST(Summary, OfAFailedRunHasNoBarsOfWhatIsNoNumber) {
