@@ -62,7 +62,7 @@ struct Simulation {
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning
   RunTotals totals;
   Clock clock;
-  PhaseTimes phase_times;
+  PhaseTimes phase_times{};
 };
 
 }  // namespace knap
