@@ -120,7 +120,7 @@ void detect_contacts(Simulation& s) {
 void apply_crack_impulses(Simulation& s) {
   if (!has_cracks(s)) return;
   const PhaseTimer timer(s.phase_times, Phase::VertexImpulses);
-  if (apply_vertex_impulses(s.cracks, s.nodes, impulse_options(s))) s.cracks.last_damage_step = s.clock.step;
+  apply_vertex_impulses(s.cracks, s.nodes, impulse_options(s));
 }
 
 void apply_fragment_contacts(Simulation& s) {
