@@ -14,30 +14,11 @@ using testing::HasSubstr;
 
 class EnergyStop : public ProgramTest {
  protected:
-  EnergyStop() {
-    write("case.toml", R"(
-[particle]
-diameter = "2 mm"
-[mesh]
-element_size = "0.35 mm"
-[material]
-young_modulus = "1 GPa"
-poisson_ratio = 0.25
-density = "1000 kg/m3"
-[fracture]
-insertion = "none"
-allow_unresolved = true
-[impact]
-speed = "10 m/s"
-[run]
-end_time = "20 us"
-[output]
-frames = 2
-picture = false
-)");
-  }
+  EnergyStop() { write("case.toml", elastic_case); }
+
   Ended spinning(const std::string& rate) const {
-    return run({"run", "case.toml", "--out", "r", "--set", "impact.spin=[" + rate + ", 0, 0]"});
+    return run({"run", "case.toml", "--out", "r", "--set", "impact.spin=[" + rate + ", 0, 0]", "--set",
+                "run.end_time=20us", "--set", "output.frames=2"});
   }
   void expect_failed_and_readable(const std::string& stop_reason) const {
     const json report = this->report("r");
