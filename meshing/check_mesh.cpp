@@ -51,14 +51,7 @@ Problem wrong_vertices(const TetMesh& mesh) {
 }
 
 Problem absurd_size(const TetMesh& mesh) {
-  Vec3 low = mesh.vertices[at(mesh.tets[0][0])];
-  Vec3 high = low;
-  for (const TetCorners& tet : mesh.tets)
-    for (const Index v : tet) {
-      low = low.cwiseMin(mesh.vertices[at(v)]);
-      high = high.cwiseMax(mesh.vertices[at(v)]);
-    }
-  const double extent = (high - low).maxCoeff();
+  const double extent = bounding_box(mesh).largest_extent();
   if (extent >= smallest_extent && extent <= largest_extent) return {};
   return fmt::format(
       "it is {:g} m long, allowed is {:g} m to {:g} m: check mesh_scale, the metres in one unit of the file", extent,

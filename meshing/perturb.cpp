@@ -1,6 +1,6 @@
 #include "meshing/perturb.hpp"
 
-#include "meshing/split_mix.hpp"
+#include "core/random.hpp"
 #include "meshing/vertex_star.hpp"
 
 namespace knap {
@@ -8,7 +8,7 @@ namespace knap {
 void perturb_interior(TetMesh& mesh, double fraction, std::int64_t seed) {
   constexpr double worst_allowed = 0.1;
   constexpr std::uint64_t stream = 0x70657274757262ULL;  // apart from the numbers that turned the geometry
-  SplitMix random{static_cast<std::uint64_t>(seed) ^ stream};
+  std::uint64_t random = static_cast<std::uint64_t>(seed) ^ stream;
   const Csr tets_of = tets_of_vertices(mesh);
   const std::vector<bool> on_surface = surface_vertices(mesh);
   for (Index v = 0; v < mesh.num_vertices(); ++v) {

@@ -32,15 +32,9 @@ struct MortonGrid {
 };
 
 MortonGrid make_grid(const TetMesh& mesh) {
-  Vec3 low = mesh.vertices[at(mesh.tets[0][0])];
-  Vec3 high = low;
-  for (const TetCorners& tet : mesh.tets)
-    for (const Index v : tet) {
-      low = low.cwiseMin(mesh.vertices[at(v)]);
-      high = high.cwiseMax(mesh.vertices[at(v)]);
-    }
-  const double length = (high - low).maxCoeff();
-  return {low, length > 0.0 ? 2097152.0 / length : 0.0};
+  const BoundingBox box = bounding_box(mesh);
+  const double length = box.largest_extent();
+  return {box.low, length > 0.0 ? 2097152.0 / length : 0.0};
 }
 
 // The permutation that sorts the codes, ties by index.

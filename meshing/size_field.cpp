@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "meshing/split_mix.hpp"
+#include "core/random.hpp"
 
 namespace knap {
 namespace {
@@ -27,10 +27,10 @@ int add_ball(const TetrahedraliseOptions& options) {
 // A plane wave about 8 elements long.
 int add_wave(int ball, const TetrahedraliseOptions& options) {
   namespace field = gmsh::model::mesh::field;
-  SplitMix random{static_cast<std::uint64_t>(options.seed)};
+  auto random = static_cast<std::uint64_t>(options.seed);
   const Vec3 direction = random_rotation(random).col(0);
   const Vec3 k = direction * (2.0 * std::numbers::pi / (8.0 * options.element_size));
-  const double phase = 2.0 * std::numbers::pi * random.uniform();
+  const double phase = 2.0 * std::numbers::pi * uniform01(random);
   const int wave = field::add("MathEval");  // its parser knows no exponents and no two signs in a row
   field::setString(wave, "F",
                    fmt::format("F{} * (1 + 0.03 * Sin(({:.12f}) * x + ({:.12f}) * y + ({:.12f}) * z + {:.12f}))", ball,

@@ -6,6 +6,7 @@
 #include <unordered_map>
 
 #include "core/errors.hpp"
+#include "core/random.hpp"
 #include "meshing/gmsh_session.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "meshing/perturb.hpp"
@@ -13,7 +14,6 @@
 #include "meshing/reorder.hpp"
 #include "meshing/shapes/geometry.hpp"
 #include "meshing/size_field.hpp"
-#include "meshing/split_mix.hpp"
 #include "meshing/vertex_star.hpp"
 
 namespace knap {
@@ -65,7 +65,7 @@ void snap_gmsh_nodes(const Shape& shape) {
 }
 
 TetMesh gmsh_mesh(const Shape& shape, const TetrahedraliseOptions& options) {
-  SplitMix random{static_cast<std::uint64_t>(options.seed)};
+  auto random = static_cast<std::uint64_t>(options.seed);
   const Mat3 orientation = options.seed == 0 ? Mat3::Identity() : random_rotation(random);
   TetMesh mesh;
   with_gmsh([&] {

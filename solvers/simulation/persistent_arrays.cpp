@@ -73,7 +73,8 @@ constexpr auto fields(const RunTotals*) {
                     Field{"last_wall_step", &RunTotals::last_wall_step},
                     Field{"first_wall_step", &RunTotals::first_wall_step},
                     Field{"last_contact_step", &RunTotals::last_contact_step},
-                    Field{"inserted_facets", &RunTotals::inserted_facets}};
+                    Field{"inserted_facets", &RunTotals::inserted_facets},
+                    Field{"noted_damage", &RunTotals::noted_damage}};
 }
 constexpr auto fields(const EnergyLedger*) {
   return std::tuple{Field{"value", &EnergyLedger::value}, Field{"initial", &EnergyLedger::initial},

@@ -10,7 +10,7 @@ namespace knap {
 struct RunLimits {
   double end_time = 0.0;    ///< latest [s]
   bool automatic = true;    ///< earlier, when nothing happens any more
-  double quiet_time = 0.0;  ///< without insertion, damage or contact, for that [s]
+  double quiet_time = 0.0;  ///< without contact, insertion, or damage of 1e-5 of the incident energy, for that [s]
 };
 
 enum class StopReason { AtRest, EndTime, Interrupted, EnergyNotClosed, NotFinite };

@@ -46,6 +46,7 @@ struct RunTotals {
   std::int64_t first_wall_step = -1;
   std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
   std::int64_t inserted_facets = 0;
+  double noted_damage = 0.0;       ///< energy that the cracks had spent when damage was last noticed, see run.cpp [J]
   std::int64_t inverted_tets = 0;  ///< found at the energy balances
 };
 
@@ -62,7 +63,7 @@ struct Simulation {
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning
   RunTotals totals;
   Clock clock;
-  PhaseTimes phase_times;
+  PhaseTimes phase_times{};
 };
 
 }  // namespace knap

@@ -76,6 +76,16 @@ void update_bulk(Simulation& s) {
   update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, s.clock.dt);
 }
 
+void kick_nodes(Simulation& s) {
+  const PhaseTimer timer(s.phase_times, Phase::Motion);
+  kick(s.nodes, s.clock.dt);
+}
+
+void drift_nodes(Simulation& s) {
+  const PhaseTimer timer(s.phase_times, Phase::Motion);
+  drift(s.nodes, s.clock.dt);
+}
+
 void update_faces(Simulation& s) {
   if (!has_cracks(s)) return;
   const PhaseTimer timer(s.phase_times, Phase::CrackFaces);
@@ -108,7 +118,7 @@ void detect_contacts(Simulation& s) {
 void apply_crack_impulses(Simulation& s) {
   if (!has_cracks(s)) return;
   const PhaseTimer timer(s.phase_times, Phase::VertexImpulses);
-  if (apply_vertex_impulses(s.cracks, s.nodes, impulse_options(s))) s.cracks.last_damage_step = s.clock.step;
+  apply_vertex_impulses(s.cracks, s.nodes, impulse_options(s));
 }
 
 void apply_fragment_contacts(Simulation& s) {
@@ -177,7 +187,7 @@ void balance_energies(Simulation& s) {
 StepStatus step(Simulation& s) {
   insert_new_cracks(s);
   update_bulk(s);
-  kick(s.nodes, s.clock.dt);
+  kick_nodes(s);
   update_faces(s);
   detect_contacts(s);
   apply_crack_impulses(s);
@@ -185,7 +195,7 @@ StepStatus step(Simulation& s) {
   apply_wall(s);
   book_losses(s);
   const StepStatus status = check_energies(s);
-  drift(s.nodes, s.clock.dt);
+  drift_nodes(s);
   ++s.clock.step;
   return status;
 }

@@ -1,6 +1,7 @@
 #include "analysis/convex_hull.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Exact_rational.h>
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/boost/graph/helpers.h>
 #include <CGAL/convex_hull_3.h>
@@ -18,18 +19,34 @@ using HullMesh = CGAL::Surface_mesh<Kernel::Point_3>;
 
 Vec3 to_vec3(const Kernel::Point_3& p) { return {p.x(), p.y(), p.z()}; }
 
-/// Volume [m3] between the triangles of a closed surface, by tets to its first vertex.
+using ExactVec3 = std::array<CGAL::Exact_rational, 3>;
+
+ExactVec3 exact_difference(const Kernel::Point_3& a, const Kernel::Point_3& b) {
+  ExactVec3 difference;
+  for (int k = 0; k < 3; ++k)
+    difference[static_cast<std::size_t>(k)] = CGAL::Exact_rational(a[k]) - CGAL::Exact_rational(b[k]);
+  return difference;
+}
+
+CGAL::Exact_rational determinant(const ExactVec3& a, const ExactVec3& b, const ExactVec3& c) {
+  return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) + a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Volume [m3] between the triangles of a closed surface, by tets to its first vertex; summed exactly, because the
+/// order of faces and vertices follows the addresses of memory, and flat parts have triangles by the order of the
+/// points.
 double enclosed_volume(const HullMesh& mesh) {
-  const Vec3 apex = to_vec3(mesh.point(*mesh.vertices_begin()));
-  double volume = 0.0;
+  const Kernel::Point_3& apex = mesh.point(*mesh.vertices_begin());
+  std::vector<ExactVec3> arm(mesh.number_of_vertices());
+  for (const auto vertex : mesh.vertices()) arm[vertex.idx()] = exact_difference(mesh.point(vertex), apex);
+  CGAL::Exact_rational sum = 0;
   for (const auto face : mesh.faces()) {
     const auto a = mesh.halfedge(face);
     const auto b = mesh.next(a);
     const auto c = mesh.next(b);
-    volume += tet_volume(apex, to_vec3(mesh.point(mesh.target(a))), to_vec3(mesh.point(mesh.target(b))),
-                         to_vec3(mesh.point(mesh.target(c))));
+    sum += determinant(arm[mesh.target(a).idx()], arm[mesh.target(b).idx()], arm[mesh.target(c).idx()]);
   }
-  return std::abs(volume);
+  return std::abs(CGAL::to_double(sum)) / 6.0;
 }
 
 ConvexHull flat_hull(std::span<const Vec3> points) { return {{points.begin(), points.end()}, 0.0}; }

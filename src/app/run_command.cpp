@@ -52,17 +52,6 @@ PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& lo
   return {{name, card, quality}, run_limits(card), std::move(s)};
 }
 
-// A case that is refused leaves no folder in the way of the next try.
-PreparedRun prepare_in_folder(const RunConfig& config, const RunArguments& arguments, const RunFolder& folder,
-                              RunLog& log) {
-  try {
-    return prepare(config, case_name(arguments), log);
-  } catch (const InputError&) {
-    if (!arguments.resume) remove_run(folder);
-    throw;
-  }
-}
-
 void draw(const RunFolder& folder, const Simulation& s, const RunOutcome& outcome, RunLog& log) {
   try {
     draw_run(folder.picture(), s, outcome);
@@ -102,18 +91,15 @@ ExitCode exit_code(StopReason reason) {
   return ExitCode::EnergyNotClosed;
 }
 
-ExitCode run_in_folder(const RunConfig& config, const RunArguments& arguments, const RunFolder& folder, RunLog& log) {
-  log.info(fmt::format("Knap {}: {}", version, arguments.case_file.string()));
-  PreparedRun run = prepare_in_folder(config, arguments, folder, log);
-  const SessionOptions options{folder, config.output, arguments.resume, arguments.quiet};
+ExitCode run_in_folder(PreparedRun& run, const SessionOptions& options, RunLog& log) {
   const Session session = run_session(run, options, log);
   const RunOutcome outcome = run_outcome(run.simulation, run.identity, session);
   write_results(run.simulation, outcome, options, log);
   const ExitCode code = exit_code(session.stop_reason);
   if (code == ExitCode::EnergyNotClosed) log.error(failure_message(run.simulation, session.stop_reason));
   if (code == ExitCode::Interrupted)
-    log.warn(
-        fmt::format("interrupted; to continue, give the same command with --resume --out {}", folder.path.string()));
+    log.warn(fmt::format("interrupted; to continue, give the same command with --resume --out {}",
+                         options.folder.path.string()));
   return code;
 }
 
@@ -127,12 +113,20 @@ FolderUse folder_use(const RunArguments& arguments) {
 ExitCode run_command(const RunArguments& arguments) {
   const RunConfig config = load(arguments);
   const fs::path out = arguments.out.empty() ? fs::path("out") / case_name(arguments) : arguments.out;
-  const RunFolder folder = open_run_folder(out, folder_use(arguments), config);
+  const PendingRunFolder pending(out, folder_use(arguments), config);
   set_num_threads(config.run.threads);
   catch_interrupts();
-  RunLog log(folder.log(), arguments.quiet);
+  RunLog log(arguments.quiet);
+  log.info(fmt::format("Knap {}: {}", version, arguments.case_file.string()));
+  PreparedRun run = prepare(config, case_name(arguments), log);
+  if (interrupt_requested()) {
+    log.warn("interrupted before the first step: nothing was written");
+    return ExitCode::Interrupted;
+  }
+  const RunFolder folder = pending.start();
+  log.start_file(folder.log());
   try {
-    return run_in_folder(config, arguments, folder, log);
+    return run_in_folder(run, {folder, config.output, arguments.resume, arguments.quiet}, log);
   } catch (const std::exception& error) {
     log.note(fmt::format("ended by an error: {}", error.what()));
     throw;

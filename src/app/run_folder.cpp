@@ -33,9 +33,10 @@ void remove_frames(const fs::path& folder, std::string_view stem) {
   if (fs::is_empty(folder)) fs::remove(folder);
 }
 
-void remove_files(const RunFolder& folder) {
+// All but effective.toml, by which a folder is known as a run's: the new one replaces it.
+void remove_results(const RunFolder& folder) {
   for (const char* name : {"log.txt", "report.json", "history.csv", "fragments.csv", "size_distribution.csv",
-                           "picture.png", "checkpoint.h5", "frames.pvd", "cracks.pvd", "effective.toml"})
+                           "picture.png", "checkpoint.h5", "frames.pvd", "cracks.pvd"})
     fs::remove(folder.path / name);
   remove_frames(folder.path / "frames", "frame_");
   remove_frames(folder.path / "cracks", "cracks_");
@@ -83,38 +84,53 @@ void check_resumable(const RunFolder& folder, const RunConfig& config) {
         fmt::format("{}: has no checkpoint.h5 to resume from; start again with --overwrite", folder.path.string()));
 }
 
-}  // namespace
-
-void remove_run(const RunFolder& folder) {
-  remove_files(folder);
+void check_replaceable(const RunFolder& folder, FolderUse use, const RunConfig& config) {
+  const fs::path& path = folder.path;
   std::error_code error;
-  if (fs::is_empty(folder.path, error)) fs::remove(folder.path, error);
+  if (!fs::exists(path, error)) return;
+  if (!fs::is_directory(path, error))
+    throw InputError(fmt::format("{}: is a file, not a folder for results", path.string()));
+  if (fs::is_empty(path, error)) return;
+  if (use == FolderUse::New)
+    throw InputError(fmt::format(
+        "{}: exists already; give another folder with --out, replace it with --overwrite, or continue it with "
+        "--resume",
+        path.string()));
+  if (!holds_a_run(folder, config))
+    throw InputError(
+        fmt::format("{}: is not empty and was not written by Knap (no effective.toml); --overwrite leaves it alone",
+                    path.string()));
 }
 
-RunFolder open_run_folder(const fs::path& path, FolderUse use, const RunConfig& config) {
-  const RunFolder folder{path};
-  if (use == FolderUse::Resume) {
+void check_folder(const RunFolder& folder, FolderUse use, const RunConfig& config) {
+  if (use == FolderUse::Resume)
     check_resumable(folder, config);
-    return folder;
-  }
+  else
+    check_replaceable(folder, use, config);
+}
+
+}  // namespace
+
+PendingRunFolder::PendingRunFolder(const fs::path& path, FolderUse use, const RunConfig& config)
+    : folder_{path}, use_(use), config_(config) {
+  check_folder(folder_, use, config);
   std::error_code error;
-  if (fs::exists(path, error) && !fs::is_directory(path, error))
-    throw InputError(fmt::format("{}: is a file, not a folder for results", path.string()));
-  if (fs::exists(path, error) && !fs::is_empty(path, error)) {
-    if (use == FolderUse::New)
-      throw InputError(fmt::format(
-          "{}: exists already; give another folder with --out, replace it with --overwrite, or continue it with "
-          "--resume",
-          path.string()));
-    if (!holds_a_run(folder, config))
-      throw InputError(
-          fmt::format("{}: is not empty and was not written by Knap (no effective.toml); --overwrite leaves it alone",
-                      path.string()));
-    remove_files(folder);
-  }
+  is_made_here_ = !fs::exists(path, error);
   make_folder(path);
-  write_text_atomically(folder.effective(), effective_toml(config));
-  return folder;
+}
+
+PendingRunFolder::~PendingRunFolder() {
+  std::error_code error;
+  if (is_made_here_) fs::remove(folder_.path, error);  // only an empty one
+}
+
+RunFolder PendingRunFolder::start() const {
+  check_folder(folder_, use_, config_);
+  if (use_ == FolderUse::Resume) return folder_;
+  remove_results(folder_);
+  make_folder(folder_.path);
+  write_text_atomically(folder_.effective(), effective_toml(config_));
+  return folder_;
 }
 
 }  // namespace knap

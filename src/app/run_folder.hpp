@@ -22,11 +22,27 @@ struct RunFolder {
   std::filesystem::path checkpoint() const { return path / "checkpoint.h5"; }
 };
 
-/// Makes the folder ready: empty but for effective.toml, or, to resume, as it is. Throws InputError when the folder
-/// holds something that must not be touched, or is not one of this case.
-RunFolder open_run_folder(const std::filesystem::path& path, FolderUse use, const RunConfig& config);
+/// The folder of a run that has not started. Until it starts nothing that lies there is touched, so that a case that is
+/// refused, or interrupted before its first step, leaves everything as it was.
+class PendingRunFolder {
+ public:
+  /// Makes the folder if there is none. Throws InputError when that cannot be done, when it holds something that must
+  /// not be touched, or is not one of this case.
+  PendingRunFolder(const std::filesystem::path& path, FolderUse use, const RunConfig& config);
+  /// Removes the folder again if it was made here and has stayed empty.
+  ~PendingRunFolder();
+  PendingRunFolder(const PendingRunFolder&) = delete;
+  PendingRunFolder& operator=(const PendingRunFolder&) = delete;
 
-/// Removes what a run wrote, and the folder if it is empty then.
-void remove_run(const RunFolder& folder);
+  /// The run starts: what an old one wrote goes, and effective.toml comes; to resume, all stays as it is. Throws as the
+  /// constructor, for the folder may have changed since.
+  RunFolder start() const;
+
+ private:
+  RunFolder folder_;
+  FolderUse use_;
+  const RunConfig& config_;
+  bool is_made_here_ = false;
+};
 
 }  // namespace knap

@@ -1,24 +1,16 @@
 #include "app/run_log.hpp"
 
+#include <fstream>
+
 #include "core/log.hpp"
 
 namespace knap {
-namespace {
 
-// make_log puts the terminal first and the file last. Only the file's lines name their level by themselves.
-spdlog::logger part(const spdlog::sink_ptr& sink) {
-  spdlog::logger logger("knap", sink);
-  logger.flush_on(spdlog::level::info);
-  return logger;
-}
+RunLog::RunLog(bool quiet) : file_(stream_log(before_file_)), terminal_(terminal_log(quiet)), before_printing_([] {}) {}
 
-}  // namespace
-
-RunLog::RunLog(const std::filesystem::path& file, bool quiet)
-    : file_("none"), terminal_("none"), before_printing_([] {}) {
-  const auto log = make_log(file, quiet);
-  terminal_ = part(log->sinks().front());
-  file_ = part(log->sinks().back());
+void RunLog::start_file(const std::filesystem::path& file) {
+  std::ofstream(file, std::ios::app) << before_file_.str();
+  file_ = file_log(file);
 }
 
 void RunLog::print(spdlog::level::level_enum level, const std::string& text) {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <sstream>
 #include <string>
 
 namespace knap {
@@ -10,7 +11,12 @@ namespace knap {
 /// What a run says while it goes: to the terminal (only warnings and errors when quiet) and to its log file.
 class RunLog {
  public:
-  RunLog(const std::filesystem::path& file, bool quiet);
+  explicit RunLog(bool quiet);
+  RunLog(const RunLog&) = delete;
+  RunLog& operator=(const RunLog&) = delete;
+
+  /// Appends to this file what has been said so far, and then all that is said.
+  void start_file(const std::filesystem::path& file);
 
   void info(const std::string& text);
   void warn(const std::string& text);
@@ -23,6 +29,7 @@ class RunLog {
  private:
   void print(spdlog::level::level_enum level, const std::string& text);
 
+  std::ostringstream before_file_;  ///< what the file will start with
   spdlog::logger file_;
   spdlog::logger terminal_;
   std::function<void()> before_printing_;

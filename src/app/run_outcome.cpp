@@ -78,7 +78,7 @@ std::string failure_message(const Simulation& s, StopReason reason) {
       name(term), s.last_good_ledger[term] / incident, s.ledger[term] / incident);
   if (reason == StopReason::NotFinite)
     return fmt::format("the energies are not finite any more at step {}; {}", s.clock.step, change);
-  return fmt::format("the energy balance is off by {:.2f} % of the incident energy at step {}; {}",
+  return fmt::format("the energy balance is off by {:.4g} % of the incident energy at step {}; {}",
                      100.0 * s.ledger.closure_error(), s.clock.step, change);
 }
 

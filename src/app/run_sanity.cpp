@@ -22,6 +22,13 @@ constexpr double elastic_cost = 15e-9;
 constexpr double breaking_over_elastic = 20.0;
 // From this part of the critical speed on, cracks are to be expected.
 constexpr double breaking_speed_ratio = 0.7;
+// A run stops by itself when nothing has happened for so many d/c_p; an elastic one, which it takes half of one to meet
+// the wall and leave it for good, that long after its contact.
+constexpr double quiet_crossings = 10.0;
+constexpr double crossings_after_contact = quiet_crossings + 0.5;
+// Breakage goes on for about so many d/c_p; contact that lasts longer, as slow impacts' does, is seen to its end.
+constexpr double crossings_to_break = 50.0;
+constexpr double latest_crossings_after_contact = 20.0;
 // Meshes up to this size are copied to time a few steps.
 constexpr Index most_tets_to_copy = 500000;
 
@@ -45,13 +52,20 @@ bool is_expected_to_break(const SanityCard& card) {
 }
 
 // The latest end of a run that stops by itself. A broken one often gets there: dust keeps touching the wall.
-double latest_end(const SanityCard& card) { return 50.0 * card.crossing_time; }
+double latest_end(const SanityCard& card) {
+  return std::max(crossings_to_break * card.crossing_time,
+                  card.contact_time + latest_crossings_after_contact * card.crossing_time);
+}
+
+double expected_end(const SanityCard& card, bool breaks) {
+  return breaks ? latest_end(card) : card.contact_time + crossings_after_contact * card.crossing_time;
+}
 
 // The card with end, steps and wall time to expect; `elastic` is the cost of an elastic step over the tets.
 SanityCard card_with_cost(const SanityInput& input, double elastic) {
   SanityCard card = sanity_card(input);
   const bool breaks = is_expected_to_break(card);
-  if (!input.end_time) card.end_time = breaks ? latest_end(card) : card.contact_time + 12.0 * card.crossing_time;
+  if (!input.end_time) card.end_time = expected_end(card, breaks);
   card.num_steps = std::ceil(card.end_time / input.time_step->dt);
   card.input.cost_per_tet_step = elastic * (breaks ? breaking_over_elastic : 1.0);
   card.wall_time = card.num_steps * input.num_tets * card.input.cost_per_tet_step;
@@ -131,7 +145,7 @@ SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const
 
 RunLimits run_limits(const SanityCard& card) {
   if (card.input.end_time) return {.end_time = *card.input.end_time, .automatic = false};
-  return {.end_time = latest_end(card), .automatic = true, .quiet_time = 10.0 * card.crossing_time};
+  return {.end_time = latest_end(card), .automatic = true, .quiet_time = quiet_crossings * card.crossing_time};
 }
 
 }  // namespace knap

@@ -13,7 +13,8 @@ SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle);
 /// The card of a run about to start; times a few steps of a copy of it.
 SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s);
 
-/// When a run with this card ends: at the given time, else by itself, at the latest after 60 d/c_p and 4 contact times.
+/// When a run with this card ends: at the given time, else by itself, at the latest after 50 d/c_p, or 20 d/c_p after
+/// the contact of an elastic particle where that is later.
 RunLimits run_limits(const SanityCard& card);
 
 }  // namespace knap

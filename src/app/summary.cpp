@@ -15,6 +15,7 @@ void add_line(std::string& text, std::string_view label, const std::string& valu
 }
 
 std::string bar(double share, bool utf8) {
+  if (!std::isfinite(share)) return "";
   const double filled = std::clamp(share, 0.0, 1.0) * bar_width;
   if (!utf8) return std::string(static_cast<std::size_t>(std::lround(filled)), '#');
   static constexpr std::array<const char*, 8> parts{"", "▏", "▎", "▍", "▌", "▋", "▊", "▉"};
@@ -47,8 +48,9 @@ std::string pieces_line(const BreakageMeasures& m) {
                      m.count);
 }
 
-void add_breakage(std::string& text, const RunOutcome& outcome) {
+void add_pieces(std::string& text, const RunOutcome& outcome) {
   const BreakageMeasures& m = outcome.damage.measures;
+  if (m.count == 1) return add_line(text, "particle", "whole, in one piece");
   add_line(text, "pieces", pieces_line(m));
   add_line(text, "by strict label", pieces_line(outcome.strict.measures));
   add_line(text, "largest piece",
@@ -57,11 +59,13 @@ void add_breakage(std::string& text, const RunOutcome& outcome) {
   add_line(text, "chipping ratio",
            fmt::format("{:.2f} %, of it unresolved fines {:.2f} %", 100.0 * m.chipping_ratio,
                        100.0 * m.unresolved_mass_fraction));
-  const CrackCensus& c = outcome.cracks;
-  if (c.area > 0.0)
-    add_line(text, "cracks",
-             fmt::format("{:.4g} mm2, {:.0f} % of it by shear, {:.4g} mm2 failed", 1e6 * c.area,
-                         100.0 * c.area_mode_ii / c.area, 1e6 * c.failed_area));
+}
+
+void add_cracks(std::string& text, const CrackCensus& c) {
+  if (c.area <= 0.0) return;
+  add_line(text, "cracks",
+           fmt::format("{:.4g} mm2, {:.0f} % of it by shear, {:.4g} mm2 failed", 1e6 * c.area,
+                       100.0 * c.area_mode_ii / c.area, 1e6 * c.failed_area));
 }
 
 std::string rebound_line(const RunOutcome& outcome) {
@@ -79,7 +83,8 @@ std::string summary(const Simulation& s, const RunOutcome& outcome, const std::s
   std::string text =
       fmt::format("{}: {}, stopped at {:.4g} us ({})\n", outcome.case_name,
                   name(outcome.damage.measures.breakage_class), 1e6 * s.clock.time(), name(session.stop_reason));
-  add_breakage(text, outcome);
+  add_pieces(text, outcome);
+  add_cracks(text, outcome.cracks);
   add_line(text, "rebound", rebound_line(outcome));
   add_line(text, "wall force", fmt::format("{:.4g} N at most", s.totals.max_wall_force));
   add_energies(text, s, utf8);

@@ -2,10 +2,15 @@
 #include <spdlog/spdlog.h>
 
 #include <filesystem>
+#include <iosfwd>
 
 namespace knap {
 
-/// Messages go to the terminal (warnings and worse when quiet) and, once open, to the run's log file.
-std::shared_ptr<spdlog::logger> make_log(const std::filesystem::path& file, bool quiet);
+/// Messages to the terminal: all, or only warnings and worse when quiet.
+spdlog::logger terminal_log(bool quiet);
+/// Lines with time and level to the end of a file, which is made if there is none.
+spdlog::logger file_log(const std::filesystem::path& file);
+/// The same lines to a stream that lives longer.
+spdlog::logger stream_log(std::ostream& stream);
 
 }  // namespace knap

@@ -16,6 +16,17 @@ double volume(const TetMesh& mesh) {
   return sum;
 }
 
+BoundingBox bounding_box(const TetMesh& mesh) {
+  const Vec3& first = mesh.vertices[at(mesh.tets[0][0])];
+  BoundingBox box{first, first};
+  for (const TetCorners& tet : mesh.tets)
+    for (const Index v : tet) {
+      box.low = box.low.cwiseMin(mesh.vertices[at(v)]);
+      box.high = box.high.cwiseMax(mesh.vertices[at(v)]);
+    }
+  return box;
+}
+
 double mean_edge(const TetMesh& mesh) {
   std::vector<std::pair<Index, Index>> edges;
   edges.reserve(mesh.tets.size() * 6);

@@ -19,6 +19,13 @@ inline double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3
 double tet_volume(const TetMesh& mesh, Index tet);
 /// Total volume [m3].
 double volume(const TetMesh& mesh);
+/// The box around the vertices that tets use.
+struct BoundingBox {
+  Vec3 low, high;  ///< [m]
+  double largest_extent() const { return (high - low).maxCoeff(); }
+};
+/// Of a mesh with at least one tet.
+BoundingBox bounding_box(const TetMesh& mesh);
 /// Mean length [m] over the distinct edges.
 double mean_edge(const TetMesh& mesh);
 

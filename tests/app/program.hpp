@@ -115,4 +115,25 @@ frames = 4
 picture = false
 )";
 
+/// A sphere that cannot break, as coarse, done within a second.
+inline constexpr const char* elastic_case = R"(
+[particle]
+diameter = "2 mm"
+[mesh]
+element_size = "0.35 mm"
+[material]
+young_modulus = "1 GPa"
+poisson_ratio = 0.25
+density = "1000 kg/m3"
+[fracture]
+insertion = "none"
+allow_unresolved = true
+[impact]
+speed = "10 m/s"
+angle = "60 deg"
+[output]
+frames = 0
+picture = false
+)";
+
 }  // namespace knap

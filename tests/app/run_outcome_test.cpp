@@ -23,9 +23,9 @@ Simulation with_bad_balance() {
 }
 
 TEST(FailureMessage, NamesTheTermThatChangedMost) {
-  EXPECT_THAT(
-      failure_message(with_bad_balance(), StopReason::EnergyNotClosed),
-      AllOf(HasSubstr("10.00 %"), HasSubstr("step 42"), HasSubstr("crack_friction"), HasSubstr("from 0.25 to 0.4")));
+  EXPECT_THAT(failure_message(with_bad_balance(), StopReason::EnergyNotClosed),
+              AllOf(HasSubstr("off by 10 %"), HasSubstr("step 42"), HasSubstr("crack_friction"),
+                    HasSubstr("from 0.25 to 0.4")));
 }
 
 TEST(FailureMessage, NamesTheTermThatIsNoNumber) {

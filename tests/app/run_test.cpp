@@ -137,25 +137,7 @@ TEST_F(Run, TablesAgreeWithTheReport) {
 }
 
 TEST_F(Run, ElasticParticleStopsByItselfAfterItsRebound) {
-  write("elastic.toml", R"(
-[particle]
-diameter = "2 mm"
-[mesh]
-element_size = "0.35 mm"
-[material]
-young_modulus = "1 GPa"
-poisson_ratio = 0.25
-density = "1000 kg/m3"
-[fracture]
-insertion = "none"
-allow_unresolved = true
-[impact]
-speed = "10 m/s"
-angle = "60 deg"
-[output]
-frames = 0
-picture = false
-)");
+  write("elastic.toml", elastic_case);
   const Ended ended = run({"run", "elastic.toml", "--quiet", "--out", "r"});
   ASSERT_EQ(ended.code, 0) << ended.err;
   const json report = this->report("r");

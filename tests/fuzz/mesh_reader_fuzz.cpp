@@ -8,10 +8,10 @@
 #include <vector>
 
 #include "core/errors.hpp"
+#include "core/random.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "meshing/read_msh.hpp"
 #include "meshing/reorder.hpp"
-#include "meshing/split_mix.hpp"
 
 namespace knap {
 namespace {
@@ -98,7 +98,7 @@ std::string msh4(bool binary) {
   return out.bytes + "\n$EndElements\n";
 }
 
-std::size_t pick(SplitMix& random, std::size_t n) { return static_cast<std::size_t>(random.next() % n); }
+std::size_t pick(std::uint64_t& random, std::size_t n) { return static_cast<std::size_t>(splitmix64(random) % n); }
 
 const std::vector<std::string> spiteful_words{
     "-1",  "0",      "2147483648", "9223372036854775807", "18446744073709551616", "1e999", "nan",
@@ -112,13 +112,13 @@ const std::vector<std::uint64_t> spiteful_numbers{0,          1,
                                                   1ULL << 40, 1ULL << 61,
                                                   1ULL << 63, 0x7ff0ULL << 48};
 
-void mutate(std::string& file, const std::vector<std::string>& seeds, SplitMix& random) {
+void mutate(std::string& file, const std::vector<std::string>& seeds, std::uint64_t& random) {
   if (file.empty()) return;
   const std::size_t place = pick(random, file.size());
-  const std::size_t length = std::min(file.size() - place, 1 + pick(random, random.next() % 4 == 0 ? 200 : 8));
+  const std::size_t length = std::min(file.size() - place, 1 + pick(random, splitmix64(random) % 4 == 0 ? 200 : 8));
   switch (pick(random, 8)) {
     case 0:
-      file[place] = static_cast<char>(random.next());
+      file[place] = static_cast<char>(splitmix64(random));
       break;
     case 1:
       file[place] = static_cast<char>(file[place] ^ (1 << pick(random, 8)));
@@ -170,7 +170,7 @@ int run(double seconds) {
   const std::vector<std::string> seeds{msh2(false), msh2(true), msh4(false), msh4(true)};
   for (const std::string& seed : seeds)
     if (parse_msh(seed, "seed.msh", 1e-3).num_tets() != 5) return EXIT_FAILURE;
-  SplitMix random{20240601};
+  std::uint64_t random = 20240601;
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::duration<double>(seconds);
   long runs = 0;

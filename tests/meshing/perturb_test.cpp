@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "meshing/mesh_quality.hpp"
-#include "meshing/split_mix.hpp"
 #include "meshing/tetrahedralise.hpp"
 #include "meshing/vertex_star.hpp"
 
@@ -11,22 +10,6 @@ namespace knap {
 namespace {
 
 TetMesh small_box() { return tetrahedralise(Box{{1.0, 1.0, 1.0}}, {.element_size = 0.2}); }
-
-TEST(SplitMix, GivesTheNumbersOfTheReferenceImplementation) {
-  SplitMix random{1234567};  // reference: Vigna, splitmix64.c, prng.di.unimi.it
-  EXPECT_EQ(random.next(), 6457827717110365317ULL);
-  EXPECT_EQ(random.next(), 3203168211198807973ULL);
-  EXPECT_EQ(random.next(), 9817491932198370423ULL);
-}
-
-TEST(SplitMix, RotationsAreRotations) {
-  SplitMix random{1};
-  for (int i = 0; i < 100; ++i) {
-    const Mat3 r = random_rotation(random);
-    EXPECT_NEAR((r * r.transpose() - Mat3::Identity()).norm(), 0.0, 1e-14);
-    EXPECT_NEAR(r.determinant(), 1.0, 1e-14);
-  }
-}
 
 TEST(PerturbInterior, MovesTheInteriorOnlyAndNotTooFar) {
   const TetMesh before = small_box();

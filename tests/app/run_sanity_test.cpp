@@ -1,0 +1,50 @@
+#include "app/run_sanity.hpp"
+
+#include <gtest/gtest.h>
+
+#include "config/load_config.hpp"
+#include "meshing/shape.hpp"
+
+namespace knap {
+namespace {
+
+SanityCard card(const std::vector<std::string>& overrides) {
+  const RunConfig config = config_from_text(
+      "[particle]\ndiameter = \"2 mm\"\n[material]\npreset = \"zeolite_4ak\"\n[impact]\nspeed = \"20 m/s\"\n",
+      "case.toml", overrides);
+  return estimated_card(config, Sphere{2e-3});
+}
+
+TEST(RunSanity, AnElasticRunIsExpectedToEndTenCrossingsAfterItsContact) {
+  const SanityCard elastic = card({"fracture.insertion=none", "impact.speed=5m/s"});
+  EXPECT_DOUBLE_EQ(elastic.end_time, elastic.contact_time + 10.5 * elastic.crossing_time);
+  EXPECT_DOUBLE_EQ(run_limits(elastic).quiet_time, 10.0 * elastic.crossing_time);
+  EXPECT_LT(elastic.end_time, run_limits(elastic).end_time);
+}
+
+TEST(RunSanity, ARunThatBreaksIsExpectedToTakeAllItMay) {
+  const SanityCard breaking = card({});
+  EXPECT_DOUBLE_EQ(breaking.end_time, 50.0 * breaking.crossing_time);
+  EXPECT_DOUBLE_EQ(run_limits(breaking).end_time, breaking.end_time);
+}
+
+// Below about 1 mm/s the contact lasts longer than 50 crossings: it and the quiet time after it fit into every run.
+TEST(RunSanity, NoImpactIsCutOffInMidContact) {
+  for (const char* speed : {"10um/s", "1mm/s", "2mm/s", "1cm/s", "1m/s", "100m/s"}) {
+    const SanityCard slow = card({std::string("impact.speed=") + speed});
+    EXPECT_TRUE(run_limits(slow).automatic);
+    EXPECT_GE(run_limits(slow).end_time, slow.contact_time + 15.0 * slow.crossing_time) << speed;
+  }
+  const SanityCard slow = card({"impact.speed=10um/s"});
+  EXPECT_GT(slow.contact_time, 50.0 * slow.crossing_time);
+}
+
+TEST(RunSanity, AGivenEndTimeIsKept) {
+  const SanityCard given = card({"run.end_time=3us"});
+  EXPECT_DOUBLE_EQ(given.end_time, 3e-6);
+  EXPECT_FALSE(run_limits(given).automatic);
+  EXPECT_DOUBLE_EQ(run_limits(given).end_time, 3e-6);
+}
+
+}  // namespace
+}  // namespace knap
