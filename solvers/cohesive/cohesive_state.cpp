@@ -48,12 +48,14 @@ CrackState make_crack_state(const Topology& topology) {
 
 void add_cracks(CrackState& cracks, std::span<const CrackFace> faces, std::span<const VertexRecord> records) {
   const Index first_face = to_index(cracks.faces.size());
+  make_room(cracks.faces, cracks.faces.size() + faces.size());
   for (const CrackFace& face : faces) {
     cracks.face_of_facet[at(face.facet)] = to_index(cracks.faces.size());
     cracks.faces.push_back(face);
   }
   // From the back, so that every record moves at most once and only by the number of those added before it.
   auto from = cracks.records.end() - cracks.records.begin();
+  make_room(cracks.records, cracks.records.size() + records.size());
   cracks.records.resize(cracks.records.size() + records.size());
   auto to = to_index(cracks.records.size());
   auto added = records.rbegin();

@@ -89,7 +89,7 @@ struct CrackState {
   std::vector<Index> vertices;                     ///< those with records, ascending
   RecordGroups groups;                             ///< derived: the vertices as the vector kernels take them
   double cracked_area = 0.0;                       ///< of all facets inserted so far [m2]
-  std::int64_t last_damage_step = 0;               ///< last step with an insertion or growing damage
+  std::int64_t last_damage_step = 0;               ///< last step with an insertion or noticeable damage
 
   std::span<CrackRecord> records_of_vertex(Index vertex) {
     return {records.data() + record_offsets[at(vertex)], records.data() + record_offsets[at(vertex) + 1]};

@@ -4,8 +4,6 @@
 // The alternative, springs from the start, gains 15-65 % of the incident energy at insertion or costs the time step.
 #include "cohesive/vertex_impulses.hpp"
 
-#include <atomic>
-
 #include "cohesive/vertex_kernel.hpp"
 #include "core/parallel.hpp"
 
@@ -15,12 +13,9 @@ namespace {
 constexpr Index groups_per_block = 16;
 // Virgin until K w (1/m_a + 1/m_b) dt^2 <= 1/3: about three records share a node, and the leapfrog limit is 4.
 constexpr double virgin_stiffness_factor = 3.0;
-// Damage that grows by less than this in a step does not keep an automatic run from stopping.
-constexpr double noticeable_damage = 1e-5;
 
 ImpulseCoefficients coefficients(const VertexImpulseOptions& options) {
-  return {options.law, options.dt, options.sweeps, virgin_stiffness_factor * options.dt * options.dt,
-          noticeable_damage};
+  return {options.law, options.dt, options.sweeps, virgin_stiffness_factor * options.dt * options.dt};
 }
 
 ImpulseWorkspace& workspace() {
@@ -54,16 +49,13 @@ std::vector<Index> cracked_vertices(const CrackState& cracks, const Topology& to
 
 }  // namespace
 
-bool apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexImpulseOptions& options) {
+void apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexImpulseOptions& options) {
   const ImpulseCoefficients k = coefficients(options);
   const Index count = to_index(cracks.groups.groups.size());
-  std::atomic<bool> damaged{false};
   parallel_blocks(num_blocks(count, groups_per_block), [&](Index block) {
     const Index first = block * groups_per_block;
-    if (solve_groups(view(cracks, nodes), k, first, std::min(count, first + groups_per_block), workspace()))
-      damaged.store(true, std::memory_order_relaxed);
+    solve_groups(view(cracks, nodes), k, first, std::min(count, first + groups_per_block), workspace());
   });
-  return damaged.load();
 }
 
 void settle_crack_losses(CrackState& cracks, const Topology& topology, const NodalState& nodes,

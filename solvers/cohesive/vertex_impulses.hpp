@@ -12,9 +12,8 @@ struct VertexImpulseOptions {
 
 /// Cohesion, closure and friction of all crack records as impulses on the free velocities nodes.v (Moreau's non-smooth
 /// dynamics, Jean 1999, with an initially rigid cohesive capacity), after the rotations that give back angular
-/// momentum. Damage grows here. The losses are booked as if nothing else acted in this step. Returns true if damage
-/// grew.
-bool apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexImpulseOptions& options);
+/// momentum. Damage grows here. The losses are booked as if nothing else acted in this step.
+void apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexImpulseOptions& options);
 
 /// Books anew the losses of this step at the vertices of the given nodes, which other impulses have changed since; then
 /// closes the books of the step.

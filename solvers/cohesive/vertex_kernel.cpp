@@ -122,9 +122,8 @@ inline constexpr Index rotation_row = offsetof(CrackFace, rotation) / sizeof(Vec
 struct Spent {
   V cohesive, cohesive_shear;  // damage, for good
   V separation, closure, friction;
-  M damaged;
 };
-HWY_INLINE Spent nothing_spent() { return {zero(), zero(), zero(), zero(), zero(), hn::Gt(zero(), zero())}; }
+HWY_INLINE Spent nothing_spent() { return {zero(), zero(), zero(), zero(), zero()}; }
 
 HWY_INLINE auto local_rows(const Lanes& l, const PerLane<std::uint16_t>& offsets, Index field) {
   return [base = l.local() + field, o = offsets.data() + l.lane0](Index lane)
@@ -240,14 +239,12 @@ HWY_INLINE Spin rotation_velocities(const Addresses& faces, const Vec3V& xa, con
 HWY_INLINE Vec3V admissible(const Vec3V& n, V beta, V inverse_beta, V shear_capacity, V friction, V normal_part,
                             const Vec3V& tangential) {
   const M tension = hn::Lt(normal_part, zero());
-  const V most_tension = hn::Neg(hn::Mul(inverse_beta, shear_capacity));
-  const V bounded = hn::Max(normal_part, most_tension);
-  const V part = hn::IfThenElse(tension, bounded, normal_part);
-  const V scaled_part = hn::Mul(beta, part);
-  const V tension_limit2 = hn::Mul(hn::Sub(shear_capacity, scaled_part), hn::Add(shear_capacity, scaled_part));
+  const V capacity = hn::Mul(inverse_beta, shear_capacity);
+  const V part = hn::IfThenElse(tension, hn::Max(normal_part, hn::Neg(capacity)), normal_part);
+  // Exactly zero at full tension: what round-off would leave there has a large root.
+  const V tension_limit2 = hn::Mul(hn::Mul(beta, beta), hn::Mul(hn::Sub(capacity, part), hn::Add(capacity, part)));
   const V limit = hn::MulAdd(friction, part, shear_capacity);
-  const V left2 = hn::IfThenZeroElse(hn::Le(normal_part, most_tension), hn::Max(zero(), tension_limit2));
-  const V limit2 = hn::IfThenElse(tension, left2, hn::Mul(limit, limit));
+  const V limit2 = hn::IfThenElse(tension, tension_limit2, hn::Mul(limit, limit));
   const V size2 = dot(tangential, tangential);
   const V scale = hn::IfThenElse(hn::Gt(size2, limit2), hn::Sqrt(hn::Div(limit2, size2)), number(1.0));
   return scaled_sum(part, n, scaled(scale, tangential));
@@ -293,7 +290,6 @@ HWY_INLINE V grow_damage(const ImpulseCoefficients& k, const Gathered& g, M aliv
   const V rate = hn::IfThenElseZero(softens, hn::Div(hn::Mul(hn::Mul(number(0.5), g.strength), grown), d2));
   spent.cohesive = hn::MulAdd(rate, energy2, spent.cohesive);
   spent.cohesive_shear = hn::MulAdd(rate, hn::Mul(mode, o.tangential2), spent.cohesive_shear);
-  spent.damaged = hn::Or(spent.damaged, hn::Gt(grown, hn::Mul(number(k.noticeable_damage), g.delta_c)));
   return hn::IfThenElse(grows, reached, g.d_max);
 }
 
@@ -550,7 +546,7 @@ struct NextGroup {
   }
 };
 
-HWY_INLINE bool solve_lanes(const Lanes& l, const NextGroup& next) {
+HWY_INLINE void solve_lanes(const Lanes& l, const NextGroup& next) {
   const V beta = number(l.k.law.beta), inverse_beta = number(1.0 / l.k.law.beta);
   Spent spent = nothing_spent();
   load_nodes(l);
@@ -570,19 +566,16 @@ HWY_INLINE bool solve_lanes(const Lanes& l, const NextGroup& next) {
   }
   add_damage_losses(l, spent);
   store_step_losses(l.view, l.group.vertex.data() + l.lane0, spent);
-  return !hn::AllFalse(Tag(), spent.damaged);
 }
 
-bool SolveGroups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
+void SolveGroups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
                  ImpulseWorkspace& workspace) {
-  bool damaged = false;
   const std::vector<RecordGroup>& groups = view.groups->groups;
   for (Index g = first; g < last; ++g) {
     const RecordGroup* next = at(g) + 1 < groups.size() ? &groups[at(g) + 1] : nullptr;
     for (Index lane0 = 0; lane0 < group_lanes; lane0 += width)
-      damaged |= solve_lanes({view, k, groups[at(g)], workspace, lane0}, {view, lane0 == 0 ? next : nullptr});
+      solve_lanes({view, k, groups[at(g)], workspace, lane0}, {view, lane0 == 0 ? next : nullptr});
   }
-  return damaged;
 }
 
 // The nodes of records, from the bits that tell them.
@@ -677,13 +670,13 @@ namespace knap {
 HWY_EXPORT(SolveGroups);
 HWY_EXPORT(BookVertices);
 
-bool solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
+void solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
                   ImpulseWorkspace& workspace) {
   const std::size_t slots = at(view.groups->max_slots), nodes = at(view.groups->max_nodes);
   if (workspace.rows.size() < slots) workspace.rows.resize(slots);
   if (workspace.spins.size() < slots) workspace.spins.resize(slots);
   if (workspace.nodes.size() < nodes) workspace.nodes.resize(nodes);
-  return HWY_DYNAMIC_DISPATCH(SolveGroups)(view, k, first, last, workspace);
+  HWY_DYNAMIC_DISPATCH(SolveGroups)(view, k, first, last, workspace);
 }
 void book_vertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
                    ImpulseWorkspace& workspace) {

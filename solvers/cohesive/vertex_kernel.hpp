@@ -14,8 +14,7 @@ struct ImpulseCoefficients {
   CohesiveLaw law;
   double dt = 0.0;  ///< [s]
   int sweeps = 2;
-  double virgin_factor = 0.0;      ///< opening over strength times inverse masses up to which records are virgin [s2]
-  double noticeable_damage = 0.0;  ///< growth of d_max/delta_c that counts [-]
+  double virgin_factor = 0.0;  ///< opening over strength times inverse masses up to which records are virgin [s2]
 };
 
 /// What the kernels read and write; nodal vectors are padded to four doubles.
@@ -71,9 +70,8 @@ struct ImpulseWorkspace {
   Vec4 idle_node = Vec4::Zero();
 };
 
-/// Impulses of the vertices of the groups [first, last) on the free velocities; damage grows. Returns true if
-/// noticeably.
-bool solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
+/// Impulses of the vertices of the groups [first, last) on the free velocities; damage grows.
+void solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
                   ImpulseWorkspace& workspace);
 /// Books anew what the impulses of up to eight vertices spend at the present velocities.
 void book_vertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,

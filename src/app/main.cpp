@@ -1,7 +1,7 @@
 // Two settings that are read when the program is loaded, before main, so it starts itself once more with them. Threads
 // that wait for each other spin only for a moment before they sleep: with the OpenMP runtime's default of milliseconds,
-// a run on cores that other programs use too takes several times longer. And memory comes in huge pages where the system
-// leaves the choice to the program: sweeps over large meshes are up to a tenth faster.
+// a run on cores that other programs use too takes several times longer. And memory comes in huge pages where the
+// system leaves the choice to the program: sweeps over large meshes are up to a tenth faster.
 #include <unistd.h>
 
 #include <cstdlib>

@@ -30,6 +30,7 @@ inline Index append_copy(NodalState& nodes, Index source) {
   const Index copy = nodes.size();
   visit_nodal_fields(nodes, [source](const char*, auto& field) {
     const auto value = field[at(source)];
+    make_room(field, field.size() + 1);
     field.push_back(value);
   });
   return copy;

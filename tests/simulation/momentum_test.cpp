@@ -40,9 +40,9 @@ double largest_difference(const Simulation& a, const Simulation& b, const Vec3& 
   return largest;
 }
 
-// Galilean invariance: on a frictionless wall, damage depends on v sin(theta) only. Round-off grows; a twin of the normal
-// run disturbed by 1e-15 shows by how much. A wall friction of 1e-9 would fail at 15 facets; a limit of the shear in full
-// tension that is the root of round-off instead of zero would fail at the end (3e-7).
+// Galilean invariance: on a frictionless wall, damage depends on v sin(theta) only. Round-off grows; a twin of the
+// normal run disturbed by 1e-15 shows by how much. A wall friction of 1e-9 would fail at 15 facets; a limit of the
+// shear in full tension that is the root of round-off instead of zero would fail at the end (3e-7).
 TEST(Momentum, FrictionlessObliqueImpactIsTheNormalImpact) {
   const double speed = 20.0;
   const auto impact = [&](double tangential) {
