@@ -26,24 +26,32 @@ double effective_traction(const CohesiveLaw& law, const Vec3& t, const Vec3& nor
 }
 
 std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::span<const Vec4> x,
-                                               std::span<const TetStress> stress, std::span<const double> strength,
+                                               const TetStresses& stresses, std::span<const double> strength,
                                                const CohesiveLaw& law) {
   const Index blocks = num_blocks(topology.num_facets(), facets_per_block);
   std::vector<std::vector<OverloadedFacet>> found(at(blocks));
   // The effective traction is at most |t| max(1, 1/beta), and |t| at most the mean of the two stresses' bounds.
   const double bound_factor = 0.5 * std::max(1.0, 1.0 / law.beta);
+  const auto may_fail = [&](Index facet) {
+    const auto& [minus, plus] = topology.facet_tets[at(facet)];
+    const double bound = stresses.bound[at(minus)] + stresses.bound[at(plus)];
+    return bound_factor * bound >= strength[at(facet)] && topology.facet_state[at(facet)] == FacetState::Bonded;
+  };
   parallel_blocks(blocks, [&](Index block) {
     const Index end = std::min(topology.num_facets(), (block + 1) * facets_per_block);
+    std::array<Index, std::size_t{facets_per_block}> facets;
+    Index count = 0;
     for (Index facet = block * facets_per_block; facet < end; ++facet) {
-      for (const Index tet : topology.facet_tets[at(std::min(facet + prefetch_distance, end - 1))])
-        __builtin_prefetch(&stress[at(tet)]);
+      facets[at(count)] = facet;
+      count += may_fail(facet) ? 1 : 0;
+    }
+    for (Index i = 0; i < count; ++i) {
+      for (const Index tet : topology.facet_tets[at(facets[at(std::min(i + prefetch_distance, count - 1))])])
+        __builtin_prefetch(&stresses.stress[at(tet)]);
+      const Index facet = facets[at(i)];
       const auto& [minus, plus] = topology.facet_tets[at(facet)];
-      const TetStress& sa = stress[at(minus)];
-      const TetStress& sb = stress[at(plus)];
-      if (bound_factor * (sa.norm + sb.norm) < strength[at(facet)]) continue;
-      if (topology.facet_state[at(facet)] != FacetState::Bonded) continue;
       const Vec3 n = facet_normal(topology, x, facet);
-      const Vec3 t = facet_traction(sa, sb, n);
+      const Vec3 t = facet_traction(stresses.stress[at(minus)], stresses.stress[at(plus)], n);
       const double effective = effective_traction(law, t, n);
       if (effective >= strength[at(facet)]) found[at(block)].push_back({facet, effective, t});
     }

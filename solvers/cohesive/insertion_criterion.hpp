@@ -20,7 +20,7 @@ struct OverloadedFacet {
 
 /// The bonded facets whose mean traction of both tets, on the current normal, reaches their strength; ascending.
 std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::span<const Vec4> x,
-                                               std::span<const TetStress> stress, std::span<const double> strength,
+                                               const TetStresses& stresses, std::span<const double> strength,
                                                const CohesiveLaw& law);
 
 }  // namespace knap

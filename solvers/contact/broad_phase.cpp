@@ -185,7 +185,11 @@ void rebuild_candidates(ContactState& contact, const Topology& topology, std::sp
     for (Index k = block * tets_per_block; k < end; ++k)
       add_candidates_of_tet(contact, here, tets[at(k)], found[at(block)]);
   });
-  for (const auto& part : found) contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());
+  for (auto& part : found) {
+    make_room(contact.candidates, contact.candidates.size() + part.size());
+    contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());
+    part = {};
+  }
 }
 
 double largest_approach(std::span<const Vec4> v, double dt) {

@@ -66,6 +66,7 @@ ElasticForce make_elastic_force(const Topology& topology, std::span<const Vec3> 
   elastic.groups.resize(at(elastic.blocks.num_groups));
   if (material.branch.is_active()) elastic.branch.groups.resize(at(elastic.blocks.num_groups));
   elastic.stress.resize(at(topology.num_tets()));
+  elastic.stress_bound.resize(at(topology.num_tets()));
   elastic.volumes.resize(at(topology.num_tets()));
   elastic.interface_forces.resize(at(elastic.blocks.num_slots));
   for (const ElementBlock& block : elastic.blocks.blocks)
@@ -109,8 +110,9 @@ double strain_energy(const ElasticForce& elastic, std::span<const Vec4> x) {
 void update_stress(ElasticForce& elastic, std::span<const Vec4> x) {
   const KernelCoefficients k = coefficients(elastic.material, elastic.branch.decay);
   BranchGroup* branch = elastic.branch.groups.empty() ? nullptr : elastic.branch.groups.data();
-  parallel_blocks(to_index(elastic.blocks.blocks.size()),
-                  [&](Index b) { store_block_stress(view(elastic, branch, b, x), k, elastic.stress.data()); });
+  parallel_blocks(to_index(elastic.blocks.blocks.size()), [&](Index b) {
+    store_block_stress(view(elastic, branch, b, x), k, elastic.stress.data(), elastic.stress_bound.data());
+  });
 }
 
 }  // namespace knap

@@ -20,6 +20,7 @@ struct ElasticForce {
   std::vector<ElementGroup> groups;    ///< by lane group
   BranchState branch;                  ///< persistent
   std::vector<TetStress> stress;       ///< by tet, of the last update_stress
+  std::vector<float> stress_bound;     ///< see TetStresses
   std::vector<double> volumes;         ///< reference volume of each tet [m3]
   std::vector<Vec4> interface_forces;  ///< scratch, by interface slot [N]
 };
@@ -38,7 +39,7 @@ void update_elastic_forces(ElasticForce& elastic, std::span<const Vec4> x, std::
 /// Energy stored in the bulk [J], branch included; x as in the last update_elastic_forces.
 double strain_energy(const ElasticForce& elastic, std::span<const Vec4> x);
 
-/// Cauchy stress of all tets at x into elastic.stress; x as in the last update_elastic_forces.
+/// Cauchy stress of all tets at x into elastic.stress and stress_bound; x as in the last update_elastic_forces.
 void update_stress(ElasticForce& elastic, std::span<const Vec4> x);
 
 }  // namespace knap

@@ -279,10 +279,11 @@ double BlockEnergy(const BlockView& view, const KernelCoefficients& numbers) {
   return lane_sum(energy);
 }
 
-HWY_INLINE void store_tets(const Symmetric& s, V norm, V volume_ratio, const ElementBlock& block, Index g, Index lane0,
+HWY_INLINE void store_tets(const Symmetric& s, V volume_ratio, const ElementBlock& block, Index g, Index lane0,
                            TetStress* stress) {
   for (Index number = 0; number < width / unit; ++number) {
-    const Rows first = rows(number, s.xx, s.yy, s.zz, s.yz), second = rows(number, s.zx, s.xy, norm, volume_ratio);
+    const Rows first = rows(number, s.xx, s.yy, s.zz, s.yz);
+    const Rows second = rows(number, s.zx, s.xy, volume_ratio, hn::Zero(Tag()));
 #pragma GCC unroll 4
     for (Index lane = 0; lane < unit; ++lane) {
       const Index tet = tet_of_lane(block, g, lane0 + number * unit + lane);
@@ -293,7 +294,17 @@ HWY_INLINE void store_tets(const Symmetric& s, V norm, V volume_ratio, const Ele
   }
 }
 
-void StoreBlockStress(const BlockView& view, const KernelCoefficients& numbers, TetStress* stress) {
+HWY_INLINE void store_bounds(V norm, const ElementBlock& block, Index g, Index lane0, float* bound) {
+  constexpr double rounded_up = 1.0 + 1e-6;  // more than a float can lose
+  HWY_ALIGN double value[width];
+  hn::Store(hn::Mul(hn::Set(Tag(), rounded_up), norm), Tag(), value);
+  for (Index lane = 0; lane < width; ++lane) {
+    const Index tet = tet_of_lane(block, g, lane0 + lane);
+    if (tet != none) bound[tet] = static_cast<float>(value[lane]);
+  }
+}
+
+void StoreBlockStress(const BlockView& view, const KernelCoefficients& numbers, TetStress* stress, float* bound) {
   HWY_ALIGN double local[node_stride * max_block_nodes];
   load_nodes(view, local);
   const Coefficients k = broadcast(numbers);
@@ -324,7 +335,8 @@ void StoreBlockStress(const BlockView& view, const KernelCoefficients& numbers, 
                         entry(edges.a.y, edges.b.y, edges.c.y, p.z, q.z, r.z),
                         entry(edges.a.z, edges.b.z, edges.c.z, p.x, q.x, r.x),
                         entry(edges.a.x, edges.b.x, edges.c.x, p.y, q.y, r.y)};
-      store_tets(s, hn::Sqrt(contraction(s, s)), ratio, *view.block, g, lane, stress);
+      store_tets(s, ratio, *view.block, g, lane, stress);
+      store_bounds(hn::Sqrt(contraction(s, s)), *view.block, g, lane, bound);
     }
   }
 }
@@ -346,8 +358,8 @@ double add_block_forces(const BlockView& view, const KernelCoefficients& k, doub
 double block_energy(const BlockView& view, const KernelCoefficients& k) {
   return HWY_DYNAMIC_DISPATCH(BlockEnergy)(view, k);
 }
-void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress) {
-  HWY_DYNAMIC_DISPATCH(StoreBlockStress)(view, k, stress);
+void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress, float* bound) {
+  HWY_DYNAMIC_DISPATCH(StoreBlockStress)(view, k, stress, bound);
 }
 
 std::vector<std::string> kernel_targets() {

@@ -53,8 +53,8 @@ struct BlockView {
 double add_block_forces(const BlockView& view, const KernelCoefficients& k, double* f, double* slots);
 /// Strain energy of the block [J], branch included.
 double block_energy(const BlockView& view, const KernelCoefficients& k);
-/// Cauchy stress of the block's tets into stress[tet].
-void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress);
+/// Cauchy stress of the block's tets into stress[tet], its Frobenius norm, rounded up, into bound[tet].
+void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress, float* bound);
 
 /// Instruction sets that this processor can run, best first.
 std::vector<std::string> kernel_targets();

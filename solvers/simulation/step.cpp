@@ -56,8 +56,8 @@ void insert_new_cracks(Simulation& s) {
   if (!s.options.fracture || s.clock.step % s.options.insertion_interval != 0) return;
   const PhaseTimer timer(s.phase_times, Phase::Insertion);
   update_stress(s.elastic, s.nodes.x);
-  const auto overloaded =
-      overloaded_facets(s.topology, s.nodes.x, s.elastic.stress, s.reference.facet_strength, s.options.fracture->law);
+  const auto overloaded = overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound},
+                                            s.reference.facet_strength, s.options.fracture->law);
   if (overloaded.empty()) return;
   const auto change = insert_cracks(s.cracks, s.topology, s.nodes, overloaded,
                                     {.dt = s.clock.dt,

@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "core/types.hpp"
 
 namespace knap {
@@ -6,8 +8,14 @@ namespace knap {
 /// Symmetric Cauchy stress of a tet [Pa], one cache line.
 struct alignas(64) TetStress {
   double xx = 0.0, yy = 0.0, zz = 0.0, yz = 0.0, zx = 0.0, xy = 0.0;  ///< [Pa]
-  double norm = 0.0;          ///< Frobenius norm, at least the traction on any plane [Pa]
-  double volume_ratio = 1.0;  ///< J [-], <= 0 when inverted
+  double volume_ratio = 1.0;                                          ///< J [-], <= 0 when inverted
+};
+
+/// The stresses of all tets, and for each at least the magnitude of its traction on any plane [Pa]: sixteen of these
+/// fit where one stress does.
+struct TetStresses {
+  std::span<const TetStress> stress;
+  std::span<const float> bound;
 };
 
 /// Traction [Pa] that a stress exerts on a plane with unit normal n.

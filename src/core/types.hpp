@@ -25,10 +25,10 @@ inline Index to_index(std::size_t n) { return static_cast<Index>(n); }
 /// Conversion of an Index to a subscript.
 inline std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-/// Makes room for `size` items, by quarters: doubling would leave up to half of the largest arrays unused.
+/// Makes room for `size` items, by eighths: doubling would leave up to half of the largest arrays unused.
 template <class T>
 void make_room(std::vector<T>& items, std::size_t size) {
-  if (size > items.capacity()) items.reserve(std::max(size, items.capacity() + items.capacity() / 4));
+  if (size > items.capacity()) items.reserve(std::max(size, items.capacity() + items.capacity() / 8));
 }
 
 }  // namespace knap

@@ -9,7 +9,7 @@ namespace {
 
 // The largest effective traction over many directions of the normal, for a stress along the axes.
 double largest_effective(const CohesiveLaw& law, double xx, double yy, double zz) {
-  const TetStress stress{.xx = xx, .yy = yy, .zz = zz, .norm = 0.0};
+  const TetStress stress{.xx = xx, .yy = yy, .zz = zz};
   double largest = -1e300;
   for (int i = 0; i <= 900; ++i)
     for (int j = 0; j < 36; ++j) {
