@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "core/parallel.hpp"
+#include "core/vector_targets.hpp"
 #include "fem/elastic_force.hpp"
 #include "tests/fem/grid_mesh.hpp"
 
@@ -61,7 +62,7 @@ void sweep_once(Body& b, Sweep sweep) {
 
 void run(benchmark::State& state, Sweep sweep, const std::string& target, int threads) {
   Body& b = body(static_cast<Index>(state.range(0)), sweep == Sweep::ViscousForces);
-  use_kernel_target(target);
+  use_vector_target(target);
   set_num_threads(threads);
   double best = 1e30;
   for (auto _ : state) {
@@ -72,7 +73,7 @@ void run(benchmark::State& state, Sweep sweep, const std::string& target, int th
   const auto tets = static_cast<double>(b.elastic.stress.size());
   state.counters["best_Mtets_per_s"] = 1e-6 * tets / best;
   state.counters["best_ns_per_tet"] = 1e9 * best / tets;
-  use_kernel_target("");
+  use_vector_target("");
 }
 
 }  // namespace
@@ -85,7 +86,7 @@ int main(int argc, char** argv) {
                                                           {"refresh", Sweep::Refresh}};
   for (const auto& [name, sweep] : sweeps)
     for (const Index size : {10'000, 46'000, 140'000, 500'000, 2'000'000})
-      for (const std::string& target : kernel_targets())
+      for (const std::string& target : vector_targets())
         for (const int threads : {1, 2})
           benchmark::RegisterBenchmark((name + "/" + target + "/threads:" + std::to_string(threads)).c_str(), run,
                                        sweep, target, threads)

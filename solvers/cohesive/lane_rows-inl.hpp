@@ -12,20 +12,13 @@
 #include <cstring>
 
 #include "cohesive/record_groups.hpp"
+#include "core/vector3-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace knap {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
+static_assert(group_lanes % width == 0);
 
-using Tag = hn::CappedTag<double, std::size_t{group_lanes}>;
-using V = hn::Vec<Tag>;
-using M = hn::Mask<Tag>;
-inline constexpr Index width = static_cast<Index>(hn::MaxLanes(Tag()));  ///< lanes of a vector
-
-struct Vec3V {
-  V x, y, z;
-};
 struct Columns {
   V x, y, z, w;
   HWY_INLINE Vec3V xyz() const { return {x, y, z}; }
@@ -151,6 +144,35 @@ HWY_INLINE Rows rows(const Columns& c) {
   return r;
 }
 #endif
+
+using Word = hn::RebindToSigned<Tag>;
+
+/// Addresses of rows of four doubles, one a lane.
+struct Addresses {
+  HWY_ALIGN std::int64_t address[width];
+
+  HWY_INLINE double* operator()(Index lane) const { return reinterpret_cast<double*>(address[lane]); }
+};
+
+HWY_INLINE hn::Vec<Word> load_indices(const Index* indices) {
+  return hn::PromoteTo(Word(), hn::LoadU(hn::Rebind<Index, Tag>(), indices));
+}
+/// base + index 2^log_size, or `idle` where the index is none.
+template <int log_size>
+HWY_INLINE Addresses addresses(const void* base, hn::Vec<Word> indices, const void* idle) {
+  const auto number_of = [](const void* p) HWY_ATTR {
+    return hn::Set(Word(), static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>(p)));
+  };
+  Addresses result;
+  const auto there = hn::Add(number_of(base), hn::ShiftLeft<log_size>(indices));
+  hn::Store(hn::IfThenElse(hn::Lt(indices, hn::Zero(Word())), number_of(idle), there), Word(), result.address);
+  return result;
+}
+template <std::ptrdiff_t doubles>
+struct Shifted {
+  const Addresses& rows;
+  HWY_INLINE double* operator()(Index lane) const { return rows(lane) + doubles; }
+};
 
 }  // namespace HWY_NAMESPACE
 }  // namespace knap

@@ -3,16 +3,14 @@
 #include <algorithm>
 #include <cstddef>
 
-// AVX-512, AVX2, and plain C++ for anything older; the first two give the same bits.
-#include <hwy/detect_targets.h>
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSE4 | HWY_SSSE3)
+#include "core/choose_targets-inl.hpp"
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "cohesive/vertex_kernel.cpp"
 #include <hwy/foreach_target.h>
 //
 #include <hwy/highway.h>
 
+#include "cohesive/impulse_law-inl.hpp"
 #include "cohesive/lane_rows-inl.hpp"
 
 #ifndef KNAP_COHESIVE_VERTEX_KERNEL_ONCE
@@ -35,27 +33,6 @@ HWY_BEFORE_NAMESPACE();
 namespace knap {
 namespace HWY_NAMESPACE {
 
-// The fixed order of every sum below, fused multiply-adds included, is what makes the bits independent of the width.
-HWY_INLINE V zero() { return hn::Zero(Tag()); }
-HWY_INLINE V number(double value) { return hn::Set(Tag(), value); }
-HWY_INLINE V dot(const Vec3V& a, const Vec3V& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-HWY_INLINE Vec3V cross(const Vec3V& a, const Vec3V& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
-}
-HWY_INLINE Vec3V scaled(V s, const Vec3V& a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
-// s a + b
-HWY_INLINE Vec3V scaled_sum(V s, const Vec3V& a, const Vec3V& b) {
-  return {hn::MulAdd(s, a.x, b.x), hn::MulAdd(s, a.y, b.y), hn::MulAdd(s, a.z, b.z)};
-}
-HWY_INLINE Vec3V sum(const Vec3V& a, const Vec3V& b) {
-  return {hn::Add(a.x, b.x), hn::Add(a.y, b.y), hn::Add(a.z, b.z)};
-}
-HWY_INLINE Vec3V difference(const Vec3V& a, const Vec3V& b) {
-  return {hn::Sub(a.x, b.x), hn::Sub(a.y, b.y), hn::Sub(a.z, b.z)};
-}
 HWY_INLINE Vec3V where(M mask, const Vec3V& a) {
   return {hn::IfThenElseZero(mask, a.x), hn::IfThenElseZero(mask, a.y), hn::IfThenElseZero(mask, a.z)};
 }
@@ -85,45 +62,9 @@ struct Lanes {
   const Index* nodes(Index n) const { return view.groups->nodes[at(group.first_nodes + n)].data() + lane0; }
 };
 
-using Word = hn::RebindToSigned<Tag>;
-
-/// Addresses of rows of four doubles, one a lane.
-struct Addresses {
-  HWY_ALIGN std::int64_t address[width];
-
-  HWY_INLINE double* operator()(Index lane) const { return reinterpret_cast<double*>(address[lane]); }
-};
-
-HWY_INLINE hn::Vec<Word> load_indices(const Index* indices) {
-  return hn::PromoteTo(Word(), hn::LoadU(hn::Rebind<Index, Tag>(), indices));
-}
-/// base + index 2^log_size, or `idle` where the index is none.
-template <int log_size>
-HWY_INLINE Addresses addresses(const void* base, hn::Vec<Word> indices, const void* idle) {
-  const auto number_of = [](const void* p) HWY_ATTR {
-    return hn::Set(Word(), static_cast<std::int64_t>(reinterpret_cast<std::intptr_t>(p)));
-  };
-  Addresses result;
-  const auto there = hn::Add(number_of(base), hn::ShiftLeft<log_size>(indices));
-  hn::Store(hn::IfThenElse(hn::Lt(indices, hn::Zero(Word())), number_of(idle), there), Word(), result.address);
-  return result;
-}
-template <std::ptrdiff_t doubles>
-struct Shifted {
-  const Addresses& rows;
-  HWY_INLINE double* operator()(Index lane) const { return rows(lane) + doubles; }
-};
-
 inline constexpr int log_row = 5, log_record = 6;
 inline constexpr Index rows_per_face = sizeof(CrackFace) / sizeof(Vec4);
 inline constexpr Index rotation_row = offsetof(CrackFace, rotation) / sizeof(Vec4);
-
-/// What impulses and damage spend, lane by lane.
-struct Spent {
-  V cohesive, cohesive_shear;  // damage, for good
-  V separation, closure, friction;
-};
-HWY_INLINE Spent nothing_spent() { return {zero(), zero(), zero(), zero(), zero()}; }
 
 HWY_INLINE auto local_rows(const Lanes& l, const PerLane<std::uint16_t>& offsets, Index field) {
   return [base = l.local() + field, o = offsets.data() + l.lane0](Index lane)
@@ -199,26 +140,6 @@ HWY_INLINE M is_rotating(V action) {
   return hn::Or(hn::Gt(action, zero()), hn::Eq(action, number(face_action::ends_and_rotates)));
 }
 
-/// Coefficient of friction at damage `damage`.
-HWY_INLINE V friction_of(const CohesiveLaw& law, V damage) {
-  const V one = number(1.0), internal = number(law.internal_friction), sliding = number(law.sliding_friction);
-  const V softening = law.softening_friction == SofteningFriction::KeepsConfinedStrength
-                          ? internal
-                          : hn::MulAdd(hn::Sub(one, damage), internal, hn::Mul(damage, sliding));
-  return hn::IfThenElse(hn::Ge(damage, one), sliding, softening);
-}
-
-/// Cohesion and friction of records.
-struct Resistance {
-  V shear_capacity, friction;
-};
-HWY_INLINE Resistance resistance(const ImpulseCoefficients& k, M virgin, V strength, V d_max, V delta_c) {
-  const V one = number(1.0);
-  const V damage = hn::Min(one, hn::Div(d_max, delta_c));
-  const V capacity = hn::Mul(hn::Mul(number(k.law.beta * k.dt), strength), hn::Sub(one, damage));
-  return {hn::IfThenElseZero(virgin, capacity), friction_of(k.law, damage)};
-}
-
 // The indices of the lanes in the mask, none elsewhere.
 HWY_INLINE hn::Vec<Word> only(M mask, hn::Vec<Word> indices) {
   return hn::IfThenElse(hn::RebindMask(Word(), mask), indices, hn::Set(Word(), none));
@@ -234,22 +155,6 @@ HWY_INLINE Spin rotation_velocities(const Addresses& faces, const Vec3V& xa, con
   return {cross(rotation, difference(xa, centre)), cross(rotation, difference(xb, centre))};
 }
 
-/// The impulse nearest to (normal_part, tangential) that the records can bear: capacity in tension, Coulomb cone and
-/// cohesion in compression.
-HWY_INLINE Vec3V admissible(const Vec3V& n, V beta, V inverse_beta, V shear_capacity, V friction, V normal_part,
-                            const Vec3V& tangential) {
-  const M tension = hn::Lt(normal_part, zero());
-  const V capacity = hn::Mul(inverse_beta, shear_capacity);
-  const V part = hn::IfThenElse(tension, hn::Max(normal_part, hn::Neg(capacity)), normal_part);
-  // Exactly zero at full tension: what round-off would leave there has a large root.
-  const V tension_limit2 = hn::Mul(hn::Mul(beta, beta), hn::Mul(hn::Sub(capacity, part), hn::Add(capacity, part)));
-  const V limit = hn::MulAdd(friction, part, shear_capacity);
-  const V limit2 = hn::IfThenElse(tension, tension_limit2, hn::Mul(limit, limit));
-  const V size2 = dot(tangential, tangential);
-  const V scale = hn::IfThenElse(hn::Gt(size2, limit2), hn::Sqrt(hn::Div(limit2, size2)), number(1.0));
-  return scaled_sum(part, n, scaled(scale, tangential));
-}
-
 // Marks in records and faces what has changed its regime.
 HWY_INLINE void note_regimes(const Lanes& l, const RecordSlots& slots, M leaves_virgin, M fails) {
   std::uint8_t leaving[8] = {}, failing[8] = {};
@@ -263,18 +168,6 @@ HWY_INLINE void note_regimes(const Lanes& l, const RecordSlots& slots, M leaves_
     record.regime = RecordRegime::Failed;
     l.view.faces[record.face].failed[record.corner] = 1;
   }
-}
-
-/// A jump of records, split along the normals of their faces.
-struct Opening {
-  V normal, opening;  // jn, <jn>
-  Vec3V tangential;
-  V tangential2;
-};
-HWY_INLINE Opening opening_of(const Vec3V& jump, const Vec3V& n) {
-  const V jn = dot(jump, n);
-  const Vec3V tangential = difference(jump, scaled(jn, n));
-  return {jn, hn::Max(jn, zero()), tangential, dot(tangential, tangential)};
 }
 
 // Raises d_max to the present opening and books what that spends where the records soften.
@@ -418,29 +311,6 @@ HWY_INLINE void relax_row(const Lanes& l, RecordRow& row, V beta, V inverse_beta
   const Vec3V new_b = scaled_sum(load(row.inverse_mass_b, l.lane0), change, b.xyz());
   store_rows(rows(new_a), at_a);
   store_rows(rows(new_b), at_b);
-}
-
-/// What the booking of records needs.
-struct Booked {
-  Vec3V normal, impulse;
-  V shear_capacity, friction;
-  M virgin;
-};
-
-// Work taken from the bodies by impulses at a mean slip velocity.
-HWY_INLINE void book_impulses(const Booked& b, const Vec3V& slip, Spent& spent) {
-  const V pn = dot(b.impulse, b.normal);
-  const V normal_loss = hn::Neg(hn::Mul(pn, dot(slip, b.normal)));
-  const V tangential_loss = hn::Sub(hn::Neg(dot(b.impulse, slip)), normal_loss);
-  const V frictional = hn::Mul(hn::Max(zero(), pn), b.friction);
-  const V share =
-      hn::IfThenElseZero(hn::Gt(frictional, zero()), hn::Div(frictional, hn::Add(frictional, b.shear_capacity)));
-  const V friction = hn::IfThenElse(b.virgin, hn::Mul(share, tangential_loss), tangential_loss);
-  const M separates = hn::AndNot(hn::Gt(pn, zero()), b.virgin);
-  spent.friction = hn::Add(spent.friction, friction);
-  spent.separation = hn::Add(spent.separation, hn::Sub(tangential_loss, friction));
-  spent.separation = hn::Add(spent.separation, hn::IfThenElseZero(separates, normal_loss));
-  spent.closure = hn::Add(spent.closure, hn::IfThenZeroElse(separates, normal_loss));
 }
 
 // Work taken from the bodies by rotations: momenta that they add, mean velocities.
@@ -681,19 +551,6 @@ void solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index f
 void book_vertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
                    ImpulseWorkspace& workspace) {
   HWY_DYNAMIC_DISPATCH(BookVertices)(view, k, vertices, workspace);
-}
-
-std::vector<std::string> impulse_kernel_targets() {
-  std::vector<std::string> names;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
-  return names;
-}
-
-void use_impulse_kernel_target(const std::string& name) {
-  std::int64_t wanted = 0;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    if (name == hwy::TargetName(target)) wanted = target;
-  hwy::GetChosenTarget().Update(wanted != 0 ? wanted : hwy::SupportedTargets());
 }
 
 }  // namespace knap

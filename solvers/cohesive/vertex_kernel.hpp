@@ -3,7 +3,6 @@
 // at run time. A group's nodes are copied into a local buffer of rows (x y z w) by local number and lane, where the
 // sweeps find them in the first-level cache; the bits do not depend on the width of the vectors.
 #include <span>
-#include <string>
 
 #include "cohesive/cohesive_state.hpp"
 
@@ -76,10 +75,5 @@ void solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index f
 /// Books anew what the impulses of up to eight vertices spend at the present velocities.
 void book_vertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,
                    ImpulseWorkspace& workspace);
-
-/// Instruction sets that this processor can run, best first.
-std::vector<std::string> impulse_kernel_targets();
-/// Confines the kernels to one of impulse_kernel_targets(), for tests and benchmarks; "" = the best one again.
-void use_impulse_kernel_target(const std::string& name);
 
 }  // namespace knap

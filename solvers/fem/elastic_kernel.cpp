@@ -1,11 +1,7 @@
 #include "fem/elastic_kernel.hpp"
 
+#include "core/choose_targets-inl.hpp"
 #include "materials/neo_hookean.hpp"
-
-// AVX-512, AVX2, and plain C++ for anything older; the first two give the same bits.
-#include <hwy/detect_targets.h>
-#undef HWY_DISABLED_TARGETS
-#define HWY_DISABLED_TARGETS (HWY_AVX3_DL | HWY_SSE4 | HWY_SSSE3)
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "fem/elastic_kernel.cpp"
 #include <hwy/foreach_target.h>
@@ -18,7 +14,6 @@ HWY_BEFORE_NAMESPACE();
 namespace knap {
 namespace HWY_NAMESPACE {
 
-// The fixed order of every sum below, fused multiply-adds included, is what makes the bits independent of the width.
 struct Symmetric {
   V xx, yy, zz, yz, zx, xy;
 };
@@ -26,18 +21,6 @@ struct Edges {
   Vec3V a, b, c;
 };
 
-HWY_INLINE V dot(const Vec3V& a, const Vec3V& b) {
-  return hn::MulAdd(a.z, b.z, hn::MulAdd(a.y, b.y, hn::Mul(a.x, b.x)));
-}
-HWY_INLINE Vec3V cross(const Vec3V& a, const Vec3V& b) {
-  return {hn::NegMulAdd(a.z, b.y, hn::Mul(a.y, b.z)), hn::NegMulAdd(a.x, b.z, hn::Mul(a.z, b.x)),
-          hn::NegMulAdd(a.y, b.x, hn::Mul(a.x, b.y))};
-}
-HWY_INLINE Vec3V scaled(V s, const Vec3V& a) { return {hn::Mul(s, a.x), hn::Mul(s, a.y), hn::Mul(s, a.z)}; }
-// s a + b
-HWY_INLINE Vec3V scaled_sum(V s, const Vec3V& a, const Vec3V& b) {
-  return {hn::MulAdd(s, a.x, b.x), hn::MulAdd(s, a.y, b.y), hn::MulAdd(s, a.z, b.z)};
-}
 HWY_INLINE Vec3V combination(V u, const Vec3V& a, V v, const Vec3V& b, V w, const Vec3V& c) {
   return scaled_sum(u, a, scaled_sum(v, b, scaled(w, c)));
 }
@@ -360,19 +343,6 @@ double block_energy(const BlockView& view, const KernelCoefficients& k) {
 }
 void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress, float* bound) {
   HWY_DYNAMIC_DISPATCH(StoreBlockStress)(view, k, stress, bound);
-}
-
-std::vector<std::string> kernel_targets() {
-  std::vector<std::string> names;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets()) names.emplace_back(hwy::TargetName(target));
-  return names;
-}
-
-void use_kernel_target(const std::string& name) {
-  std::int64_t wanted = 0;
-  for (const std::int64_t target : hwy::SupportedAndGeneratedTargets())
-    if (name == hwy::TargetName(target)) wanted = target;
-  hwy::GetChosenTarget().Update(wanted != 0 ? wanted : hwy::SupportedTargets());
 }
 
 }  // namespace knap

@@ -9,8 +9,6 @@
 // of the way through F and P. Likewise F F^T = D G D^T and F:F = G : D^T D. The viscoelastic branch in Green strain
 // adds its stress to mu V G: with the metric B that the branch has relaxed to, its elastic strain is (D^T D - B)/2 in
 // edge components, B(0) = D0^T D0 and dB/dt = (D^T D - B)/tau.
-#include <string>
-
 #include "core/tet_stress.hpp"
 #include "fem/element_blocks.hpp"
 
@@ -55,10 +53,5 @@ double add_block_forces(const BlockView& view, const KernelCoefficients& k, doub
 double block_energy(const BlockView& view, const KernelCoefficients& k);
 /// Cauchy stress of the block's tets into stress[tet], its Frobenius norm, rounded up, into bound[tet].
 void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress, float* bound);
-
-/// Instruction sets that this processor can run, best first.
-std::vector<std::string> kernel_targets();
-/// Confines the kernels to one of kernel_targets(), for tests and benchmarks; "" = the best one again.
-void use_kernel_target(const std::string& name);
 
 }  // namespace knap

@@ -9,21 +9,14 @@
 
 #include <hwy/highway.h>
 
+#include "core/vector3-inl.hpp"
 #include "fem/element_blocks.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace knap {
 namespace HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Tag = hn::CappedTag<double, std::size_t{lanes}>;
-using V = hn::Vec<Tag>;
-inline constexpr Index width = static_cast<Index>(hn::MaxLanes(Tag()));  ///< tets of a vector
-inline constexpr Index unit = width < 4 ? width : 4;                     ///< tets whose rows are written at a time
-
-struct Vec3V {
-  V x, y, z;
-};
+static_assert(lanes % width == 0);
+inline constexpr Index unit = width < 4 ? width : 4;  ///< tets whose rows are written at a time
 
 // Each instruction set defines
 //   NodeRows   rows of one corner of all tets of a vector; load_node_rows, difference, columns

@@ -9,6 +9,7 @@
 
 #include "core/parallel.hpp"
 #include "core/random.hpp"
+#include "core/vector_targets.hpp"
 #include "tests/cohesive/plain_impulses.hpp"
 
 namespace knap {
@@ -285,8 +286,8 @@ std::vector<CohesiveLaw> laws() {
 
 class VertexKernel : public testing::TestWithParam<std::string> {
  protected:
-  VertexKernel() { use_impulse_kernel_target(GetParam()); }
-  ~VertexKernel() override { use_impulse_kernel_target(""); }
+  VertexKernel() { use_vector_target(GetParam()); }
+  ~VertexKernel() override { use_vector_target(""); }
 };
 
 TEST_P(VertexKernel, DoesWhatThePlainScalarsDo) {
@@ -310,7 +311,7 @@ TEST_P(VertexKernel, DamagesNothingThatHasNotOpened) {
       EXPECT_EQ(after.records_of_vertex[vertex][i].d_max, before.records_of_vertex[vertex][i].d_max);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryTarget, VertexKernel, testing::ValuesIn(impulse_kernel_targets()),
+INSTANTIATE_TEST_SUITE_P(EveryTarget, VertexKernel, testing::ValuesIn(vector_targets()),
                          [](const auto& target) { return target.param; });
 
 // The scenes above hold everything that can happen to a record, many times.
@@ -343,14 +344,14 @@ TEST(PlainImpulses, MeetEveryCase) {
 
 /// Everything that a step changes, bit by bit.
 std::vector<std::uint64_t> bits_after_step(const std::string& target, int threads) {
-  use_impulse_kernel_target(target);
+  use_vector_target(target);
   set_num_threads(threads);
   Scene scene = random_scene(5, laws()[2]);
   apply_vertex_impulses(scene.cracks, scene.nodes, scene.options);
   const auto pushed = push_some_nodes(scene.nodes);
   settle_crack_losses(scene.cracks, scene.topology, scene.nodes, pushed, scene.options);
   set_num_threads(0);
-  use_impulse_kernel_target("");
+  use_vector_target("");
   const plain::State s = plain_state(scene);
   std::vector<std::uint64_t> bits;
   const auto add = [&bits](double value) { bits.push_back(std::bit_cast<std::uint64_t>(value)); };
@@ -370,7 +371,7 @@ std::vector<std::uint64_t> bits_after_step(const std::string& target, int thread
 }
 
 TEST(VertexKernelBits, DoNotDependOnTheNumberOfThreads) {
-  for (const std::string& target : impulse_kernel_targets()) {
+  for (const std::string& target : vector_targets()) {
     const auto alone = bits_after_step(target, 1);
     EXPECT_EQ(bits_after_step(target, 2), alone) << target;
     EXPECT_EQ(bits_after_step(target, 3), alone) << target;
@@ -378,7 +379,7 @@ TEST(VertexKernelBits, DoNotDependOnTheNumberOfThreads) {
 }
 
 TEST(VertexKernelBits, AreTheSameForBothVectorSets) {
-  const auto targets = impulse_kernel_targets();
+  const auto targets = vector_targets();
   for (const char* target : {"AVX3", "AVX2"})
     if (std::find(targets.begin(), targets.end(), target) == targets.end())
       GTEST_SKIP() << "this processor has no " << target;

@@ -7,6 +7,7 @@
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
+#include "core/vector_targets.hpp"
 #include "fem/tet_reference.hpp"
 #include "tests/fem/grid_mesh.hpp"
 #include "tests/fem/plain_elastic.hpp"
@@ -217,23 +218,23 @@ TEST(ElasticForce, SameBitsForAnyNumberOfThreads) {
 }
 
 TEST(ElasticForce, SameBitsOnAvx2AndAvx512) {
-  const auto targets = kernel_targets();
+  const auto targets = vector_targets();
   if (std::find(targets.begin(), targets.end(), "AVX3") == targets.end()) GTEST_SKIP() << "no AVX-512 here";
   for (const Material& material : {elastic_material, viscous_material}) {
     const Body body = make_body(9, material);
     const auto x = moved(body.mesh, 0.02);
-    use_kernel_target("AVX3");
+    use_vector_target("AVX3");
     const Sweeps wide = run_sweeps(body, x);
-    use_kernel_target("AVX2");
+    use_vector_target("AVX2");
     const Sweeps narrow = run_sweeps(body, x);
-    use_kernel_target("");
+    use_vector_target("");
     EXPECT_TRUE(wide == narrow);
   }
 }
 
 TEST(ElasticForce, EveryInstructionSetAgreesWithThePlainLoop) {
-  for (const std::string& target : kernel_targets()) {
-    use_kernel_target(target);
+  for (const std::string& target : vector_targets()) {
+    use_vector_target(target);
     Body body = make_body(5, elastic_material);
     const auto x = moved(body.mesh, 0.03);
     const auto expected = plain_forces(body.topology, body.mesh.vertices, elastic_material, x);
@@ -245,7 +246,7 @@ TEST(ElasticForce, EveryInstructionSetAgreesWithThePlainLoop) {
       EXPECT_LT((as_matrix(body.elastic.stress[at(t)]) - s).norm(), 1e-12) << target << t;
     }
   }
-  use_kernel_target("");
+  use_vector_target("");
 }
 
 TEST(ElasticForce, RefreshAfterSplitsEqualsBuildingFromScratch) {
