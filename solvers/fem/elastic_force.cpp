@@ -99,12 +99,16 @@ void update_elastic_forces(ElasticForce& elastic, std::span<const Vec4> x, std::
   if (branch) book_branch(elastic.branch, decay, stored);
 }
 
-double strain_energy(const ElasticForce& elastic, std::span<const Vec4> x) {
+BulkState bulk_state(const ElasticForce& elastic, std::span<const Vec4> x) {
   const KernelCoefficients k = coefficients(elastic.material, elastic.branch.decay);
   // The energy sweep only reads the branch.
   auto* branch = elastic.branch.groups.empty() ? nullptr : const_cast<BranchGroup*>(elastic.branch.groups.data());
-  return ordered_sum<double>(
-      to_index(elastic.blocks.blocks.size()), [&](Index b) { return block_energy(view(elastic, branch, b, x), k); }, 1);
+  return ordered_sum<BulkState>(
+      to_index(elastic.blocks.blocks.size()), [&](Index b) { return block_state(view(elastic, branch, b, x), k); }, 1);
+}
+
+double strain_energy(const ElasticForce& elastic, std::span<const Vec4> x) {
+  return bulk_state(elastic, x).strain_energy;
 }
 
 void update_stress(ElasticForce& elastic, std::span<const Vec4> x) {

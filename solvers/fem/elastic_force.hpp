@@ -36,6 +36,8 @@ void refresh_elastic_force(ElasticForce& elastic, const Topology& topology, std:
 /// one step of dt [s] further (0 leaves it where it is). Call it once a step.
 void update_elastic_forces(ElasticForce& elastic, std::span<const Vec4> x, std::span<Vec4> f, double dt);
 
+/// Energy and compression of the bulk; x as in the last update_elastic_forces.
+BulkState bulk_state(const ElasticForce& elastic, std::span<const Vec4> x);
 /// Energy stored in the bulk [J], branch included; x as in the last update_elastic_forces.
 double strain_energy(const ElasticForce& elastic, std::span<const Vec4> x);
 

@@ -230,7 +230,7 @@ double AddBlockForces(const BlockView& view, const KernelCoefficients& k, double
   return stored;
 }
 
-double BlockEnergy(const BlockView& view, const KernelCoefficients& numbers) {
+BulkState BlockState(const BlockView& view, const KernelCoefficients& numbers) {
   HWY_ALIGN double local[node_stride * max_block_nodes];
   load_nodes(view, local);
   const Coefficients k = broadcast(numbers);
@@ -238,6 +238,7 @@ double BlockEnergy(const BlockView& view, const KernelCoefficients& numbers) {
   const V half = hn::Set(d, 0.5), sixth = hn::Set(d, 1.0 / 6.0), one = hn::Set(d, 1.0);
   V energy[lanes / width];
   for (V& e : energy) e = hn::Zero(d);
+  V smallest = hn::Zero(d);  // J - 1
   for (Index g = 0; g < view.block->num_groups; ++g) {
     prefetch_group(view, g);
     for (Index lane = 0; lane < lanes; lane += width) {
@@ -247,6 +248,7 @@ double BlockEnergy(const BlockView& view, const KernelCoefficients& numbers) {
       const V volume = hn::IfThenElseZero(hn::Gt(inverse, hn::Zero(d)), hn::Div(sixth, inverse));
       const V j = hn::Sub(hn::Mul(dot(edges.a, cross(edges.b, edges.c)), inverse), one);
       const Symmetric c = metric(edges);
+      smallest = hn::Min(smallest, hn::IfThenElseZero(hn::Gt(inverse, hn::Zero(d)), j));
       // V W = -T:C/2 - 3/2 mu V + V j ((lambda + mu)/2 j - mu), j = J - 1
       const V shear = hn::MulAdd(hn::Mul(hn::Set(d, 3.0), k.mu), volume, contraction(t, c));
       const V volumetric = hn::Mul(hn::Mul(volume, j), hn::MulSub(hn::Mul(half, k.lambda_plus_mu), j, k.mu));
@@ -259,7 +261,9 @@ double BlockEnergy(const BlockView& view, const KernelCoefficients& numbers) {
       }
     }
   }
-  return lane_sum(energy);
+  HWY_ALIGN double lowest[width];
+  hn::Store(smallest, d, lowest);
+  return {lane_sum(energy), 1.0 + *std::min_element(lowest, lowest + width)};
 }
 
 HWY_INLINE void store_tets(const Symmetric& s, V volume_ratio, const ElementBlock& block, Index g, Index lane0,
@@ -332,14 +336,14 @@ HWY_AFTER_NAMESPACE();
 namespace knap {
 
 HWY_EXPORT(AddBlockForces);
-HWY_EXPORT(BlockEnergy);
+HWY_EXPORT(BlockState);
 HWY_EXPORT(StoreBlockStress);
 
 double add_block_forces(const BlockView& view, const KernelCoefficients& k, double* f, double* slots) {
   return HWY_DYNAMIC_DISPATCH(AddBlockForces)(view, k, f, slots);
 }
-double block_energy(const BlockView& view, const KernelCoefficients& k) {
-  return HWY_DYNAMIC_DISPATCH(BlockEnergy)(view, k);
+BulkState block_state(const BlockView& view, const KernelCoefficients& k) {
+  return HWY_DYNAMIC_DISPATCH(BlockState)(view, k);
 }
 void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress, float* bound) {
   HWY_DYNAMIC_DISPATCH(StoreBlockStress)(view, k, stress, bound);

@@ -9,6 +9,8 @@
 // of the way through F and P. Likewise F F^T = D G D^T and F:F = G : D^T D. The viscoelastic branch in Green strain
 // adds its stress to mu V G: with the metric B that the branch has relaxed to, its elastic strain is (D^T D - B)/2 in
 // edge components, B(0) = D0^T D0 and dB/dt = (D^T D - B)/tau.
+#include <algorithm>
+
 #include "core/tet_stress.hpp"
 #include "fem/element_blocks.hpp"
 
@@ -37,6 +39,18 @@ struct KernelCoefficients {
   double decay = 1.0;         ///< half-step decay of the branch's elastic strain [-]
 };
 
+/// Of one block or of all tets.
+struct BulkState {
+  double strain_energy = 0.0;          ///< branch included [J]
+  double smallest_volume_ratio = 1.0;  ///< J of the most compressed tet [-], <= 0 = a tet is inverted
+
+  BulkState& operator+=(const BulkState& other) {
+    strain_energy += other.strain_energy;
+    smallest_volume_ratio = std::min(smallest_volume_ratio, other.smallest_volume_ratio);
+    return *this;
+  }
+};
+
 /// One block as the kernels see it; positions are padded vectors by node [m].
 struct BlockView {
   const ElementGroup* groups = nullptr;
@@ -49,8 +63,7 @@ struct BlockView {
 /// Forces [N] of the block: private nodes into f by node, shared ones into its slots; relaxes the branch by one step.
 /// Returns the energy stored in the branch [J].
 double add_block_forces(const BlockView& view, const KernelCoefficients& k, double* f, double* slots);
-/// Strain energy of the block [J], branch included.
-double block_energy(const BlockView& view, const KernelCoefficients& k);
+BulkState block_state(const BlockView& view, const KernelCoefficients& k);
 /// Cauchy stress of the block's tets into stress[tet], its Frobenius norm, rounded up, into bound[tet].
 void store_block_stress(const BlockView& view, const KernelCoefficients& k, TetStress* stress, float* bound);
 

@@ -73,6 +73,7 @@ constexpr auto fields(const RunTotals*) {
                     Field{"last_wall_step", &RunTotals::last_wall_step},
                     Field{"first_wall_step", &RunTotals::first_wall_step},
                     Field{"last_contact_step", &RunTotals::last_contact_step},
+                    Field{"smallest_volume_ratio", &RunTotals::smallest_volume_ratio},
                     Field{"inserted_facets", &RunTotals::inserted_facets},
                     Field{"noted_damage", &RunTotals::noted_damage}};
 }

@@ -46,8 +46,8 @@ struct RunTotals {
   std::int64_t first_wall_step = -1;
   std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
   std::int64_t inserted_facets = 0;
-  double noted_damage = 0.0;       ///< energy that the cracks had spent when damage was last noticed, see run.cpp [J]
-  std::int64_t inverted_tets = 0;  ///< found at the energy balances
+  double noted_damage = 0.0;  ///< energy that the cracks had spent when damage was last noticed, see run.cpp [J]
+  double smallest_volume_ratio = 1.0;  ///< J of a tet at any energy balance [-], <= 0 = one was inverted
 };
 
 /// A run: owns everything by value, has no methods.

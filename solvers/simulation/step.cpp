@@ -166,7 +166,9 @@ StepStatus check_energies(Simulation& s) {
 void balance_energies(Simulation& s) {
   EnergyLedger& ledger = s.ledger;
   ledger[EnergyTerm::Kinetic] = kinetic_energy(s.nodes);
-  ledger[EnergyTerm::Strain] = strain_energy(s.elastic, s.nodes.x) - half_step_work(s.nodes, s.clock.dt);
+  const BulkState bulk = bulk_state(s.elastic, s.nodes.x);
+  s.totals.smallest_volume_ratio = std::min(s.totals.smallest_volume_ratio, bulk.smallest_volume_ratio);
+  ledger[EnergyTerm::Strain] = bulk.strain_energy - half_step_work(s.nodes, s.clock.dt);
   if (s.options.fracture) {
     const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
     ledger[EnergyTerm::CohesiveStored] = cracks.stored;

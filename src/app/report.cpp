@@ -112,6 +112,7 @@ Json performance(const Simulation& s, const Session& session) {
 Json units() {
   return {{"time", "s"},
           {"mesh.edge_mean", "m"},
+          {"mesh.smallest_volume_ratio", "-, of the most compressed tet at any energy balance; <= 0 = inverted"},
           {"energy.incident", "J"},
           {"energy, terms and errors",
            "of the incident kinetic energy, at the end; closure_error is the largest of the run"},
@@ -136,11 +137,10 @@ void write_report(const std::filesystem::path& path, const Simulation& s, const 
               {"version", version},
               {"case", outcome.case_name},
               {"state_hash", outcome.state_hash}};
-  report["mesh"] = {{"tets", outcome.quality.num_tets},
-                    {"nodes", outcome.quality.num_vertices},
-                    {"quality_min", outcome.quality.min_shape},
-                    {"edge_mean", outcome.quality.mean_edge},
-                    {"nodes_at_end", s.nodes.size()}};
+  report["mesh"] = {
+      {"tets", outcome.quality.num_tets},         {"nodes", outcome.quality.num_vertices},
+      {"quality_min", outcome.quality.min_shape}, {"edge_mean", outcome.quality.mean_edge},
+      {"nodes_at_end", s.nodes.size()},           {"smallest_volume_ratio", s.totals.smallest_volume_ratio}};
   report["time"] = {{"end", s.clock.time()}, {"steps", s.clock.step}, {"dt", s.clock.dt}};
   report["energy"] = energy(s);
   report["momentum"] = {{"linear_error", outcome.momentum.linear}, {"angular_error", outcome.momentum.angular}};

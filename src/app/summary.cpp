@@ -89,6 +89,7 @@ std::string summary(const Simulation& s, const RunOutcome& outcome, const std::s
   add_line(text, "wall force", fmt::format("{:.4g} N at most", s.totals.max_wall_force));
   add_energies(text, s, utf8);
   add_line(text, "closure error", fmt::format("{:.4f} % at most", 100.0 * s.ledger.max_closure_error));
+  if (s.totals.smallest_volume_ratio <= 0.0) add_line(text, "inverted", "a tet was turned inside out");
   const auto steps = static_cast<double>(s.clock.step - session.first_step);
   add_line(text, "effort",
            fmt::format("{:.0f} steps of {:.3g} ns in {:.1f} s on {} thread{}, {:.1f} M tet updates/s", steps,

@@ -6,7 +6,7 @@
 
 namespace knap {
 
-/// Warns once when the energy balance is off by more than `energy_warning`.
+/// Warns once when the energy balance is off by more than `energy_warning`, and once when a tet is inverted.
 class EnergyWatch : public Observer {
  public:
   explicit EnergyWatch(std::function<void(const std::string&)> warn);
@@ -15,6 +15,7 @@ class EnergyWatch : public Observer {
  private:
   std::function<void(const std::string&)> warn_;
   bool warned_ = false;
+  bool warned_of_inversion_ = false;
 };
 
 }  // namespace knap

@@ -166,6 +166,7 @@ TEST(ElasticForce, CollapsedAndInvertedTetsStayFiniteAndPushBack) {
     EXPECT_TRUE(std::isfinite(elastic.stress_bound[0]));
     EXPECT_LT(as_matrix(elastic.stress[0])(2, 2), 0.0) << height;
     EXPECT_NEAR(elastic.stress[0].volume_ratio, height, 1e-15);
+    EXPECT_NEAR(bulk_state(elastic, x).smallest_volume_ratio, height, 1e-15);
   }
 }
 

@@ -58,5 +58,22 @@ TEST(EnergyWatch, WarnsOnce) {
   EXPECT_THAT(warnings.front(), HasSubstr("2.00 %"));
 }
 
+TEST(EnergyWatch, WarnsOnceOfAnInvertedTet) {
+  std::vector<std::string> warnings;
+  EnergyWatch watch([&warnings](const std::string& text) { warnings.push_back(text); });
+  Simulation s = breaking_box();
+  balance_energies(s);
+  watch.look(s);
+  EXPECT_TRUE(warnings.empty());
+  s.nodes.x[at(s.topology.tet_nodes[0][0])] += Vec4(0.0, 0.0, 1.0, 0.0);  // a metre away: through its own tets
+  balance_energies(s);
+  EXPECT_LT(s.totals.smallest_volume_ratio, 0.0);
+  s.ledger.max_closure_error = 0.0;
+  watch.look(s);
+  watch.look(s);
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_THAT(warnings.front(), HasSubstr("inside out"));
+}
+
 }  // namespace
 }  // namespace knap
