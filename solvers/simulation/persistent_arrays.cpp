@@ -223,10 +223,20 @@ void visit_persistent(Visitor visit, Run& s) {
   visit_single(visit, "last_good_ledger", s.last_good_ledger);
 }
 
-std::string mesh_hash(const Simulation& s) {
+// Of all that a run starts from and that decides how it goes on.
+std::string case_hash(const Simulation& s) {
   StateHash hash;
   for (const Vec3& x : s.reference.vertices) hash.add_bytes(x.data(), 3 * sizeof(double));
   hash.add(s.topology.tet_vertices);
+  hash.add(s.reference.facet_strength);
+  hash.add(s.reference.fracture_energy);
+  const SimulationOptions& o = s.options;
+  const CohesiveLaw law = o.fracture ? o.fracture->law : CohesiveLaw{};
+  hash.add(std::vector{o.young_modulus, o.poisson_ratio, o.density, o.viscous_ratio, o.relaxation_time, o.step_safety,
+                       law.beta, law.kappa, law.internal_friction, law.sliding_friction,
+                       static_cast<double>(law.softening_friction), o.wall ? o.wall->friction : -1.0, o.velocity.x(),
+                       o.velocity.y(), o.velocity.z(), o.spin.x(), o.spin.y(), o.spin.z()});
+  hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
   return hash.hex();
 }
 
@@ -237,14 +247,14 @@ Checkpoint make_checkpoint(const Simulation& s) {
   visit_persistent(Writer{checkpoint}, s);
   checkpoint.doubles["scalars"] = {s.cracks.cracked_area, static_cast<double>(s.cracks.last_damage_step),
                                    s.contact.dissipated, static_cast<double>(s.contact.fragments), s.contact.travel};
-  checkpoint.texts["mesh"] = mesh_hash(s);
+  checkpoint.texts["case"] = case_hash(s);
   return checkpoint;
 }
 
 void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
-  const auto mesh = checkpoint.texts.find("mesh");
-  if (mesh == checkpoint.texts.end() || mesh->second != mesh_hash(s))
-    throw InputError("checkpoint: it was taken on another mesh; resume with the case it belongs to");
+  const auto from = checkpoint.texts.find("case");
+  if (from == checkpoint.texts.end() || from->second != case_hash(s))
+    throw InputError("checkpoint: it was taken of another case; resume with the mesh and the values it belongs to");
   const Reader reader{checkpoint};
   visit_persistent(reader, s);
   std::vector<double> scalars;

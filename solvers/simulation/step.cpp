@@ -180,7 +180,7 @@ void balance_energies(Simulation& s) {
   ledger[EnergyTerm::ToolFriction] = s.totals.wall.friction_loss;
   ledger[EnergyTerm::ToolImpact] = s.totals.wall.impact_loss;
   ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
-  ledger[EnergyTerm::MassScaling] = -s.totals.mass_scaling_energy;
+  ledger[EnergyTerm::MassScaling] = 0.0 - s.totals.mass_scaling_energy;
   const double error = ledger.closure_error();
   ledger.max_closure_error = std::max(ledger.max_closure_error, error);
   if (error <= energy_warning) s.last_good_ledger = ledger;

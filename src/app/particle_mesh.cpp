@@ -10,8 +10,6 @@
 namespace knap {
 namespace {
 
-// Free way to the wall at the start, over the element size at the contact.
-constexpr double gap_over_element = 1e-3;
 // Of a particle from a file: what counts as near the contact, over its height.
 constexpr double near_over_height = 0.125;
 
@@ -72,6 +70,8 @@ TetrahedraliseOptions mesh_options(const RunConfig& config, const Shape& shape) 
           .perturbation = config.mesh.perturbation};
 }
 
+double initial_gap(double contact_element_size) { return 1e-3 * contact_element_size; }
+
 ParticleMesh make_particle_mesh(const RunConfig& config) {
   ParticleMesh particle;
   particle.mesh = raw_mesh(config);
@@ -84,7 +84,7 @@ ParticleMesh make_particle_mesh(const RunConfig& config) {
   const auto or_mean = [&](double edge) { return edge > 0.0 ? edge : particle.quality.mean_edge; };
   particle.contact_element_size = or_mean(local_mean_edge(mesh, lowest, 0.0, near));
   particle.element_size = or_mean(local_mean_edge(mesh, lowest, 2.0 * near, 1e300));
-  const double lift = gap_over_element * particle.contact_element_size - lowest.z();
+  const double lift = initial_gap(particle.contact_element_size) - lowest.z();
   for (Vec3& x : mesh.vertices) x.z() += lift;
   return particle;
 }

@@ -23,6 +23,9 @@ std::optional<Shape> particle_shape(const ParticleConfig& particle);
 /// How that shape is to be meshed.
 TetrahedraliseOptions mesh_options(const RunConfig& config, const Shape& shape);
 
+/// Free way to the wall at the start [m].
+double initial_gap(double contact_element_size);
+
 /// Meshes the shape, or reads and checks the mesh file. Throws InputError.
 ParticleMesh make_particle_mesh(const RunConfig& config);
 

@@ -39,6 +39,23 @@ void check_card(const SanityCard& card, const RunConfig& config, RunLog& log) {
   if (!reasons.empty() && !config.fracture.allow_unresolved) throw InputError(reasons);
 }
 
+// What only the time step tells.
+void check_times(const SanityCard& card, const RunConfig& config, const Simulation& s) {
+  constexpr double most_steps = 1e9;
+  const double dt = s.clock.dt;
+  if (card.num_steps > most_steps)
+    throw InputError(
+        fmt::format("run.end_time: about {:.2g} steps of {:.3g} s to {:.3g} s, allowed are {:.0e}; a shorter "
+                    "time, a larger run.step_safety or larger elements are needed",
+                    card.num_steps, dt, card.end_time, most_steps));
+  if (config.run.end_time && *config.run.end_time < dt)
+    throw InputError(
+        fmt::format("run.end_time = {} s: is shorter than one time step, {:.3g} s", *config.run.end_time, dt));
+  if (config.material.viscous_ratio > 0.0 && config.material.relaxation_time < dt)
+    throw InputError(fmt::format("material.relaxation_time = {} s: must be at least the time step, {:.3g} s",
+                                 config.material.relaxation_time, dt));
+}
+
 PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& log) {
   log.info("Meshing ...");
   const ParticleMesh particle = make_particle_mesh(config);
@@ -49,6 +66,7 @@ PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& lo
   const SanityCard card = run_card(config, particle, s);
   log.info(format_sanity_card(card));
   check_card(card, config, log);
+  check_times(card, config, s);
   return {{name, card, quality}, run_limits(card), std::move(s)};
 }
 
@@ -95,11 +113,15 @@ ExitCode run_in_folder(PreparedRun& run, const SessionOptions& options, RunLog& 
   const Session session = run_session(run, options, log);
   const RunOutcome outcome = run_outcome(run.simulation, run.identity, session);
   write_results(run.simulation, outcome, options, log);
+  if (session.stop_reason == StopReason::EndTime && run.simulation.totals.first_wall_step < 0)
+    log.warn(fmt::format("the particle had not reached the wall at the end, {:.4g} us; a later run.end_time is needed",
+                         1e6 * run.simulation.clock.time()));
   const ExitCode code = exit_code(session.stop_reason);
   if (code == ExitCode::EnergyNotClosed) log.error(failure_message(run.simulation, session.stop_reason));
   if (code == ExitCode::Interrupted)
-    log.warn(fmt::format("interrupted; to continue, give the same command with --resume --out {}",
-                         options.folder.path.string()));
+    log.warn(
+        fmt::format("interrupted; to continue, give the same command with --resume and without --overwrite, --out {}",
+                    options.folder.path.string()));
   return code;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "config/run_config.hpp"
@@ -22,8 +23,21 @@ struct RunFolder {
   std::filesystem::path checkpoint() const { return path / "checkpoint.h5"; }
 };
 
-/// The folder of a run that has not started. Until it starts nothing that lies there is touched, so that a case that is
-/// refused, or interrupted before its first step, leaves everything as it was.
+/// Keeps other runs out of a folder as long as it lives, or the process does.
+class FolderLock {
+ public:
+  /// Throws InputError when another run has the folder.
+  explicit FolderLock(const std::filesystem::path& path);
+  ~FolderLock();
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
+
+ private:
+  int descriptor_;
+};
+
+/// The folder of a run, locked; the run has not started yet. Until it starts nothing that lies there is touched, so
+/// that a case that is refused, or interrupted before its first step, leaves everything as it was.
 class PendingRunFolder {
  public:
   /// Makes the folder if there is none. Throws InputError when that cannot be done, when it holds something that must
@@ -43,6 +57,7 @@ class PendingRunFolder {
   FolderUse use_;
   const RunConfig& config_;
   bool is_made_here_ = false;
+  std::optional<FolderLock> lock_;
 };
 
 }  // namespace knap

@@ -51,14 +51,20 @@ bool is_expected_to_break(const SanityCard& card) {
   return card.fracture && card.normal_speed > breaking_speed_ratio * card.fracture->critical_speed;
 }
 
+// Until the particle meets the wall.
+double approach_time(const SanityCard& card) {
+  return initial_gap(card.input.contact_element_size) / card.normal_speed;
+}
+
 // The latest end of a run that stops by itself. A broken one often gets there: dust keeps touching the wall.
 double latest_end(const SanityCard& card) {
-  return std::max(crossings_to_break * card.crossing_time,
-                  card.contact_time + latest_crossings_after_contact * card.crossing_time);
+  return approach_time(card) + std::max(crossings_to_break * card.crossing_time,
+                                        card.contact_time + latest_crossings_after_contact * card.crossing_time);
 }
 
 double expected_end(const SanityCard& card, bool breaks) {
-  return breaks ? latest_end(card) : card.contact_time + crossings_after_contact * card.crossing_time;
+  return breaks ? latest_end(card)
+                : approach_time(card) + card.contact_time + crossings_after_contact * card.crossing_time;
 }
 
 // The card with end, steps and wall time to expect; `elastic` is the cost of an elastic step over the tets.

@@ -8,6 +8,7 @@
 
 #include "app/interrupt.hpp"
 #include "app/terminal.hpp"
+#include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "simulation/persistent_arrays.hpp"
 
@@ -44,7 +45,12 @@ std::optional<VtkFrames> make_frames(const PreparedRun& run, const SessionOption
 
 void restore(PreparedRun& run, History& history, std::optional<VtkFrames>& frames, const SessionOptions& options) {
   Simulation& s = run.simulation;
-  restore_checkpoint(s, read_checkpoint(options.folder.checkpoint()));
+  const Checkpoint checkpoint = read_checkpoint(options.folder.checkpoint());
+  try {
+    restore_checkpoint(s, checkpoint);
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{}: {}", options.folder.checkpoint().string(), error.what()));
+  }
   history.resume(s.clock.step);
   if (frames) frames->resume(s.clock.step, s.clock.dt);
 }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <numbers>
@@ -10,7 +11,7 @@ namespace knap {
 namespace {
 
 constexpr double default_num_tets = 20000.0;
-constexpr double most_tets = 1e8;
+constexpr double most_tets = 2e7;  // as the mesher allows
 
 // Tets in a volume h^3 at a mean edge h, measured on this project's meshes (regular tets, which do not fill space,
 // would be 6 sqrt 2 = 8.5).
@@ -65,10 +66,13 @@ double smallest_extent(const ParticleConfig& particle) {
 
 void add_derived_values(RunConfig& config) {
   MeshConfig& mesh = config.mesh;
+  for (std::int64_t* seed : {&mesh.seed, &config.fracture.weibull_seed})
+    if (*seed == not_given) *seed = config.run.seed;
   if (config.particle.shape != ParticleShape::MeshFile) {
     if (mesh.element_size == 0.0) {
       const double edge = std::cbrt(edge_cubed_per_volume * particle_volume(config.particle) / default_num_tets);
-      mesh.element_size = rounded_to_3_digits(edge);
+      const double largest = 0.5 * smallest_extent(config.particle);
+      mesh.element_size = std::max(mesh.contact_element_size, std::min(largest, rounded_to_3_digits(edge)));
     }
     if (mesh.contact_element_size == 0.0) mesh.contact_element_size = mesh.element_size;
     if (mesh.contact_extent == 0.0) mesh.contact_extent = 0.25 * smallest_extent(config.particle);
@@ -99,6 +103,9 @@ std::vector<std::string> contradictions(const RunConfig& config) {
                       "{:.0e}; larger elements or a smaller contact_extent are needed",
                       mesh.element_size, mesh.contact_element_size, tets, most_tets));
   }
+  if (const double modulus = config.fracture.weibull_modulus; modulus > 0.0 && modulus < 1.0)
+    found.push_back(
+        fmt::format("fracture.weibull_modulus = {}: must be 0 (uniform strength) or from 1 to 1000", modulus));
   const double energy = config.fracture.fracture_energy;
   if (energy != 0.0 && !(energy >= 1e-12 && energy <= 1e9))
     found.push_back(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <fstream>
 #include <optional>
@@ -145,14 +146,25 @@ RunConfig configured(const GivenKeys& given) {
   return config;
 }
 
+std::string example(const Key& key) {
+  if (key.name == "strength") return "\"8 MPa\"";
+  const std::string one = fmt::format("\"{}\"", sample_value(key.quantity));
+  return key.type == KeyType::Vector ? fmt::format("[{0}, {0}, {0}]", one) : one;
+}
+
+bool is_in_presets(const Key& key) {
+  constexpr std::array names{"young_modulus", "poisson_ratio", "density", "strength", "fracture_energy"};
+  return std::find(names.begin(), names.end(), key.name) != names.end();
+}
+
 std::string missing(const Key& key, const CaseDocument& document) {
   const auto header = document.sections.find(key.section);
   std::string text =
       fmt::format("{}: {} is missing: {}", header == document.sections.end() ? document.file : header->second,
                   full_name(key), key.description);
   if (!key.range.text.empty() && key.quantity != Quantity::Ratio)
-    text += fmt::format(" For instance {} = \"{}\".", key.name, sample_value(key.quantity));
-  if (key.section == "material" || key.section == "fracture") text += " A material.preset gives it too.";
+    text += fmt::format(" For instance {} = {}.", key.name, example(key));
+  if (is_in_presets(key)) text += " A material.preset gives it too.";
   if (key.fallback.kind == Fallback::Kind::RequiredWhen)
     text += fmt::format(" Needed when {}.", key.fallback.when.text);
   return text;
@@ -170,7 +182,7 @@ void check_presence(const GivenKeys& given, const RunConfig& config, const CaseD
     const auto& own = given[row_of(key)];
     if (own && !applies(key, config))
       problems.push_back(
-          fmt::format("{}: {} does not apply: it is only for {}", own->place, full_name(key), key.applies.text));
+          fmt::format("{}: {} does not apply: it needs that {}", own->place, full_name(key), key.applies.text));
     if (!own && is_required(key, config)) problems.push_back(missing(key, document));
   }
   const bool breaks = config.fracture.insertion != Insertion::None;

@@ -20,11 +20,13 @@ struct ParticleConfig {
   bool operator==(const ParticleConfig&) const = default;
 };
 
+inline constexpr std::int64_t not_given = -1;  ///< a seed that run.seed replaces
+
 struct MeshConfig {
   double element_size = 0.0;          ///< far from the contact [m]; default: about 20k tets
   double contact_element_size = 0.0;  ///< at the expected contact point [m]; default: element_size
   double contact_extent = 0.0;        ///< radius of the refined region [m]
-  std::int64_t seed = 0;              ///< 0 = gmsh's own mesh; others rotate or jitter it
+  std::int64_t seed = not_given;      ///< 0 = gmsh's own mesh; others rotate or jitter it
   double perturbation = 0.0;          ///< random displacement of interior nodes over the local edge length [-]
   bool operator==(const MeshConfig&) const = default;
 };
@@ -59,7 +61,7 @@ struct FractureConfig {
   CrackFriction crack_friction = CrackFriction::KeepsConfinedStrength;
   double weibull_modulus = 0.0;           ///< 0 = uniform strength
   double weibull_reference_volume = 0.0;  ///< [m3]; strength holds for this volume
-  std::int64_t weibull_seed = 1;
+  std::int64_t weibull_seed = not_given;
   bool allow_unresolved = false;  ///< run although the sanity card refuses the mesh
   bool operator==(const FractureConfig&) const = default;
 };
@@ -78,7 +80,7 @@ struct TimeConfig {
   double step_safety = 0.5;        ///< time step over the nodal stability bound [-]
   int threads = 0;                 ///< 0 = all processors
   int insertion_interval = 4;      ///< steps between two checks of the insertion criterion
-  std::int64_t seed = 1;           ///< of everything random without a seed of its own
+  std::int64_t seed = 0;           ///< of everything random without a seed of its own
   bool operator==(const TimeConfig&) const = default;
 };
 

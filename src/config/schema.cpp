@@ -71,11 +71,13 @@ std::vector<Key> mesh_keys() {
       only_when(shape_is_meshed_here(),
                 quantity("contact_extent", Length, "[10 nm, 10 m]", derived("1/4 of the smallest particle extent"),
                          field(in, &C::contact_extent), "Radius of the refined region around the contact.")),
-      integer(
-          "seed", "[0, 1e15]", value("0"), field(in, &C::seed),
-          "Variant of the mesh, to see how results scatter: 0 is the mesh as generated, others rotate or jitter it."),
-      quantity("perturbation", Ratio, "[0, 0.3]", value("0"), field(in, &C::perturbation),
-               "Random displacement of interior nodes over the local edge length."),
+      only_when(shape_is_meshed_here(),
+                integer("seed", "[0, 1e15]", derived("run.seed"), field(in, &C::seed),
+                        "Variant of the mesh, to see how results scatter: 0 is the mesh as generated, others rotate or "
+                        "jitter it.")),
+      only_when(shape_is_meshed_here(),
+                quantity("perturbation", Ratio, "[0, 0.3]", value("0"), field(in, &C::perturbation),
+                         "Random displacement of interior nodes over the local edge length.")),
   };
 }
 
@@ -116,7 +118,7 @@ std::vector<Key> weibull_keys() {
                "Weibull modulus of the scatter of strength between facets; 0 is uniform strength."),
       quantity("weibull_reference_volume", Volume, "[1 um3, 1000 m3]", required_when(scattered),
                field(in, &C::weibull_reference_volume), "Volume for which `strength` holds."),
-      integer("weibull_seed", "[0, 1e15]", value("1"), field(in, &C::weibull_seed), "Seed of that scatter."),
+      integer("weibull_seed", "[0, 1e15]", derived("run.seed"), field(in, &C::weibull_seed), "Seed of that scatter."),
   };
 }
 
@@ -159,7 +161,7 @@ std::vector<Key> impact_keys() {
   using C = ImpactConfig;
   constexpr auto in = &RunConfig::impact;
   return {
-      quantity("speed", Speed, "[1 um/s, 5 km/s]", required(), field(in, &C::speed),
+      quantity("speed", Speed, "[1 mm/s, 5 km/s]", required(), field(in, &C::speed),
                "Speed of the particle when it meets the wall."),
       quantity("angle", Angle, "(0 deg, 90 deg]", value("90 deg"), field(in, &C::angle),
                "Angle of the path to the wall's plane, 90 deg = normal impact; a bare number is in radians."),
@@ -178,14 +180,14 @@ std::vector<Key> run_keys() {
   return {
       quantity("end_time", Time, "[1 ps, 100 s]", absent("automatic: when nothing breaks any more"),
                field(in, &C::end_time), "Simulated time at which the run ends."),
-      quantity("step_safety", Ratio, "(0, 0.9]", value("0.5"), field(in, &C::step_safety),
+      quantity("step_safety", Ratio, "[0.001, 0.9]", value("0.5"), field(in, &C::step_safety),
                "Time step over the largest stable one."),
       integer("threads", "[0, 1024]", value("0"), field(in, &C::threads),
               "Number of threads, 0 = all processors; results do not depend on it."),
       integer("insertion_interval", "[1, 1000]", value("4"), field(in, &C::insertion_interval),
               "Time steps between two checks for new cracks."),
-      integer("seed", "[0, 1e15]", value("1"), field(in, &C::seed),
-              "Seed of everything random that has no seed of its own."),
+      integer("seed", "[0, 1e15]", value("0"), field(in, &C::seed),
+              "Seed of everything random that is given no seed of its own: mesh.seed, fracture.weibull_seed."),
   };
 }
 

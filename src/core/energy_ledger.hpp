@@ -6,8 +6,8 @@ namespace knap {
 
 /// Where energy can be. The sum over all terms, tool work counted negative, stays what it was at the start.
 enum class EnergyTerm {
-  Kinetic,             ///< at whole steps
-  Strain,              ///< stored in the bulk, viscoelastic branch included
+  Kinetic,             ///< at half steps
+  Strain,              ///< stored in the bulk, viscoelastic branch included; at the same half steps
   CohesiveStored,      ///< recoverable on closing a softening crack
   CohesiveDissipated,  ///< work of separation spent
   ClosureImpact,       ///< normal impacts of closing crack faces

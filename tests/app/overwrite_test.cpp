@@ -87,5 +87,15 @@ TEST_F(Overwrite, ARunThatStartsReplacesTheOldResultsTheLogTooWithItsFirstLine) 
   EXPECT_LT(report("r")["time"]["end"], 0.15e-6);
 }
 
+TEST_F(Overwrite, AFolderInWhichAnotherRunWritesIsLeftToIt) {
+  const Started first = start({"run", "case.toml", "--quiet", "--out", "busy", "--set", "run.end_time=20us"});
+  ASSERT_TRUE(wait_for(folder / "busy/history.csv", first));
+  const Ended second = run({"run", "case.toml", "--out", "busy", "--overwrite"});
+  EXPECT_EQ(second.code, 2);
+  EXPECT_THAT(second.err, HasSubstr("another run writes here"));
+  EXPECT_EQ(wait(first).code, 0);
+  EXPECT_NEAR(report("busy")["time"]["end"].get<double>(), 20e-6, 0.1e-6);
+}
+
 }  // namespace
 }  // namespace knap

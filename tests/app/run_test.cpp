@@ -149,5 +149,30 @@ TEST_F(Run, ElasticParticleStopsByItselfAfterItsRebound) {
   EXPECT_FALSE(fs::exists(folder / "r/frames.pvd"));
 }
 
+TEST_F(Run, ASlowParticleReachesTheWall) {
+  write("slow.toml", elastic_case);
+  ASSERT_EQ(run({"run", "slow.toml", "--quiet", "--out", "s", "--set", "impact.angle=0.01 deg"}).code, 0);
+  EXPECT_GT(report("s")["wall"]["max_force"].get<double>(), 0.0);
+  const Ended early =
+      run({"run", "slow.toml", "--quiet", "--out", "e", "--set", "impact.angle=0.01 deg", "--set", "run.end_time=1us"});
+  EXPECT_THAT(early.err, HasSubstr("had not reached the wall"));
+}
+
+TEST_F(Run, TimesThatTheStepCannotMeetAreRefused) {
+  write("times.toml", elastic_case);
+  const auto refused = [&](std::vector<std::string> settings) {
+    std::vector<std::string> arguments{"run", "times.toml", "--out", "t"};
+    for (const std::string& setting : settings) arguments.insert(arguments.end(), {"--set", setting});
+    const Ended ended = run(arguments);
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_FALSE(std::filesystem::exists(folder / "t"));
+    return ended.err;
+  };
+  EXPECT_THAT(refused({"run.end_time=1ps"}), HasSubstr("run.end_time = 1e-12 s: is shorter than one time step"));
+  EXPECT_THAT(refused({"run.end_time=100s"}), HasSubstr("steps"));
+  EXPECT_THAT(refused({"material.viscous_ratio=1", "material.relaxation_time=10ps"}),
+              HasSubstr("material.relaxation_time = 1e-11 s: must be at least the time step"));
+}
+
 }  // namespace
 }  // namespace knap

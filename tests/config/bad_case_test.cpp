@@ -71,7 +71,7 @@ TEST(BadCase, AWrongUnitNamesTheDimension) {
 
 TEST(BadCase, ValuesOutOfRangeAreRefused) {
   EXPECT_THAT(complaint(with_line(6, "speed = -3")),
-              StartsWith("case.toml:6:9: impact.speed = -3: must be from 1 um/s to 5 km/s"));
+              StartsWith("case.toml:6:9: impact.speed = -3: must be from 1 mm/s to 5 km/s"));
   const std::vector<std::string> bad{"impact.speed=0",
                                      "impact.speed=1e9 m/s",
                                      "impact.speed=inf",
@@ -92,6 +92,8 @@ TEST(BadCase, ValuesOutOfRangeAreRefused) {
                                      "impact.angle=91 deg",
                                      "impact.wall_friction=-0.1",
                                      "run.step_safety=0",
+                                     "run.step_safety=1e-20",
+                                     "fracture.weibull_modulus=-1",
                                      "run.step_safety=0.91",
                                      "run.threads=-1",
                                      "run.insertion_interval=0",
@@ -102,6 +104,11 @@ TEST(BadCase, ValuesOutOfRangeAreRefused) {
     EXPECT_THAT(complaint(shortest, {item}), AllOf(HasSubstr("command line --set " + item), HasSubstr("must be ")))
         << item;
   EXPECT_THAT(complaint(with_line(6, "speed = nan")), HasSubstr("impact.speed = nan: must be a finite number"));
+}
+
+TEST(BadCase, AWeibullModulusBelowOneIsRefused) {
+  EXPECT_THAT(complaint(shortest, {"fracture.weibull_modulus=0.5", "fracture.weibull_reference_volume=1 mm3"}),
+              HasSubstr("fracture.weibull_modulus = 0.5: must be 0"));
 }
 
 TEST(BadCase, ABareAngleIsInRadians) {
@@ -124,7 +131,7 @@ TEST(BadCase, MissingSectionsAndKeysAreAllNamed) {
 
 TEST(BadCase, KeysOfAnotherShapeAreRefused) {
   EXPECT_THAT(complaint(with_line(2, "diameter = \"2 mm\"\ndiameters = [1e-3, 1e-3, 1e-3]")),
-              StartsWith("case.toml:3:13: particle.diameters does not apply: it is only for shape = \"ellipsoid\""));
+              StartsWith("case.toml:3:13: particle.diameters does not apply: it needs that shape = \"ellipsoid\""));
 }
 
 TEST(BadCase, ConditionalKeysAreRequiredWithTheirCondition) {
@@ -135,8 +142,9 @@ TEST(BadCase, ConditionalKeysAreRequiredWithTheirCondition) {
 
 TEST(BadCase, SizesThatCannotBeMeshedAreRefused) {
   EXPECT_THAT(complaint(shortest, {"mesh.element_size=3 mm"}), HasSubstr("at most half the smallest extent"));
-  EXPECT_THAT(complaint(shortest, {"mesh.element_size=1 um"}), HasSubstr("tets, allowed are 1e+08"));
-  EXPECT_THAT(complaint(shortest, {"mesh.contact_element_size=0.2 mm"}), HasSubstr("at most mesh.element_size"));
+  EXPECT_THAT(complaint(shortest, {"mesh.element_size=1 um"}), HasSubstr("tets, allowed are 2e+07"));
+  EXPECT_THAT(complaint(shortest, {"mesh.element_size=0.1 mm", "mesh.contact_element_size=0.2 mm"}),
+              HasSubstr("at most mesh.element_size"));
 }
 
 TEST(BadCase, AllMistakesAreReportedAtOnceInTheOrderOfTheFile) {

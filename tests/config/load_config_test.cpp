@@ -109,6 +109,24 @@ TEST(LoadConfig, OverridesAcceptTomlAndBareWords) {
   EXPECT_EQ(c.mesh.seed, 7);
 }
 
+TEST(LoadConfig, SeedsThatAreNotGivenAreTheRunsSeed) {
+  EXPECT_EQ(config_of(shortest).mesh.seed, 0);
+  const RunConfig c = config_of(shortest, {"run.seed=5", "mesh.seed=0"});
+  EXPECT_EQ(c.mesh.seed, 0);
+  EXPECT_EQ(c.fracture.weibull_seed, 5);
+  EXPECT_EQ(config_of(effective_toml(c)), c);
+}
+
+TEST(LoadConfig, DefaultSizesFitThinParticlesAndTheGivenContactSize) {
+  std::string without_diameter = shortest;
+  without_diameter.erase(without_diameter.find("diameter"), std::string("diameter = \"2 mm\"\n").size());
+  const RunConfig thin =
+      config_of(without_diameter, {"particle.shape=box", "particle.lengths=[\"10 mm\",\"10 mm\",\"0.1 mm\"]"});
+  EXPECT_EQ(thin.mesh.element_size, 0.05e-3);
+  const RunConfig coarse = config_of(shortest, {"mesh.contact_element_size=0.1 mm"});
+  EXPECT_GE(coarse.mesh.element_size, 0.1e-3);
+}
+
 TEST(LoadConfig, TheMeshFileIsFoundFromTheCaseFolder) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "knap_mesh_file";
   std::filesystem::create_directories(folder / "meshes");
@@ -122,10 +140,11 @@ TEST(LoadConfig, TheMeshFileIsFoundFromTheCaseFolder) {
   EXPECT_EQ(c.mesh.element_size, 0.0);
   EXPECT_EQ(config_of(effective_toml(c)), c);
   const std::vector<std::string> missing{"particle.mesh_file=nothing.msh"}, directory{"particle.mesh_file=meshes"},
-      size{"mesh.element_size=1 mm"}, control{"particle.mesh_file=\"a\\nb\""};
+      size{"mesh.element_size=1 mm"}, seed{"mesh.seed=1"}, control{"particle.mesh_file=\"a\\nb\""};
   EXPECT_THROW(load_config(folder / "case.toml", missing), InputError);
   EXPECT_THROW(load_config(folder / "case.toml", directory), InputError);
   EXPECT_THROW(load_config(folder / "case.toml", size), InputError);
+  EXPECT_THROW(load_config(folder / "case.toml", seed), InputError);
   EXPECT_THROW(load_config(folder / "case.toml", control), InputError);
   std::filesystem::remove_all(folder);
 }

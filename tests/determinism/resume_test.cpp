@@ -6,6 +6,7 @@
 namespace knap {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class Resume : public ProgramTest {
@@ -93,6 +94,19 @@ TEST_F(Resume, OfAnotherCaseNamesTheKey) {
   const Ended ended = run({"run", "case.toml", "--resume", "--out", "stopped", "--set", "impact.speed=26m/s"});
   EXPECT_EQ(ended.code, 2);
   EXPECT_THAT(ended.err, HasSubstr("impact.speed was 25 there and is 26 now"));
+}
+
+TEST_F(Resume, WithTheCheckpointOfAnotherCaseIsAnError) {
+  ASSERT_EQ(stopped_by(SIGINT, "stopped").code, 130);
+  auto faster = command("faster");
+  faster.insert(faster.end(), {"--set", "impact.speed=26m/s", "--set", "run.end_time=1us"});
+  ASSERT_EQ(run(faster).code, 0);
+  std::filesystem::copy_file(folder / "stopped/checkpoint.h5", folder / "faster/checkpoint.h5",
+                             std::filesystem::copy_options::overwrite_existing);
+  faster.push_back("--resume");
+  const Ended ended = run(faster);
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("faster/checkpoint.h5"), HasSubstr("another case")));
 }
 
 TEST_F(Resume, OfNoRunIsAnError) {
