@@ -139,7 +139,7 @@ void elastic_figures(Figures& figures) {
   figures.give("elastic_force_140k_tets_per_s", one);
   figures.give("elastic_force_threads2_speedup", force_rate(cells_140k, 2) / one);
   figures.give("elastic_step_140k_tets_per_s", step_rate(cells_140k, 8));
-  figures.give("step_cost_2M_over_10k", step_rate(cells_10k, 30) / step_rate(cells_2m, 2));
+  figures.give("step_cost_2M_over_10k", step_rate(cells_10k, 30) / step_rate(cells_2m, 10));
 }
 
 void print_phases(const WholeRun& run) {

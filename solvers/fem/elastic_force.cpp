@@ -67,7 +67,6 @@ ElasticForce make_elastic_force(const Topology& topology, std::span<const Vec3> 
   if (material.branch.is_active()) elastic.branch.groups.resize(at(elastic.blocks.num_groups));
   elastic.stress.resize(at(topology.num_tets()));
   elastic.stress_bound.resize(at(topology.num_tets()));
-  elastic.volumes.resize(at(topology.num_tets()));
   elastic.interface_forces.resize(at(elastic.blocks.num_slots));
   for (const ElementBlock& block : elastic.blocks.blocks)
     for (Index group = 0; group < block.num_groups; ++group)
@@ -76,7 +75,6 @@ ElasticForce make_elastic_force(const Topology& topology, std::span<const Vec3> 
         if (t == none) continue;
         const TetReference tet = make_tet_reference(reference_positions, topology.tet_vertices[at(t)]);
         if (!(tet.volume > 0.0)) throw InputError(fmt::format("mesh: tet {} has volume {} m3", t, tet.volume));
-        elastic.volumes[at(t)] = tet.volume;
         set_element(elastic, block.first_group + group, lane, tet);
       }
   return elastic;

@@ -21,7 +21,6 @@ struct ElasticForce {
   BranchState branch;                  ///< persistent
   std::vector<TetStress> stress;       ///< by tet, of the last update_stress
   std::vector<float> stress_bound;     ///< see TetStresses
-  std::vector<double> volumes;         ///< reference volume of each tet [m3]
   std::vector<Vec4> interface_forces;  ///< scratch, by interface slot [N]
 };
 

@@ -17,6 +17,8 @@ namespace {
 constexpr double skin_over_edge = 0.3;
 
 void measure_facets(ReferenceState& reference, const Topology& topology) {
+  reference.facet_area.reserve(at(topology.num_facets()));
+  reference.facet_size.reserve(at(topology.num_facets()));
   for (Index facet = 0; facet < topology.num_facets(); ++facet) {
     const Vec3& a = reference.vertices[at(topology.facet_vertex(facet, 0))];
     const Vec3& b = reference.vertices[at(topology.facet_vertex(facet, 1))];

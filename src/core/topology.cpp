@@ -74,6 +74,8 @@ Topology make_topology(const TetMesh& mesh) {
   // Facets numbered by their minus tet, so that a sweep over them walks the tets in order.
   std::sort(interior.begin(), interior.end());
   std::sort(topology.outer_facets.begin(), topology.outer_facets.end());
+  topology.facet_tets.reserve(interior.size());
+  topology.facet_corners.reserve(interior.size());
   for (const auto& [minus, plus] : interior) {
     const Index facet = topology.num_facets();
     topology.facet_tets.push_back({minus >> 2, plus >> 2});
