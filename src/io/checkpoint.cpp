@@ -65,10 +65,12 @@ void write_group(hid_t file, const char* group_name, const Map& arrays) {
   const Hid group(H5Gcreate2(file, group_name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   const Hid with_folders(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
   check(H5Pset_create_intermediate_group(with_folders, 1));
+  const Hid without_times(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);  // the same content makes the same file
+  check(H5Pset_obj_track_times(without_times, false));
   for (const auto& [name, values] : arrays) {
     const hsize_t size = values.size();
     const Hid space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    const Hid set(H5Dcreate2(group, name.c_str(), hdf5_type<Value>(), space, with_folders, H5P_DEFAULT, H5P_DEFAULT),
+    const Hid set(H5Dcreate2(group, name.c_str(), hdf5_type<Value>(), space, with_folders, without_times, H5P_DEFAULT),
                   H5Dclose);
     if (size > 0) check(H5Dwrite(set, hdf5_type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
   }
