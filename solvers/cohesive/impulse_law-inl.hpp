@@ -39,16 +39,20 @@ HWY_INLINE Resistance resistance(const ImpulseCoefficients& k, M virgin, V stren
   return {hn::IfThenElseZero(virgin, capacity), friction_of(k.law, damage)};
 }
 
-/// The impulse nearest to (normal_part, tangential) that the records can bear: capacity in tension, Coulomb cone and
-/// cohesion in compression.
-HWY_INLINE Vec3V admissible(const Vec3V& n, V beta, V inverse_beta, V shear_capacity, V friction, V normal_part,
-                            const Vec3V& tangential) {
+/// The impulse nearest to `trial` that the records can bear: capacity in tension, Coulomb cone and cohesion in
+/// compression. A push is smaller by what the gap still lets through: continuous in the gap, which round-off may open.
+HWY_INLINE Vec3V admissible(const Vec3V& n, V beta, V inverse_beta, const Resistance& resistance, V closing_impulse,
+                            const Vec3V& trial) {
+  const V trial_n = dot(trial, n), shear_capacity = resistance.shear_capacity;
+  const Vec3V tangential = difference(trial, scaled(trial_n, n));
+  const V push = hn::Max(zero(), hn::Sub(trial_n, closing_impulse));
+  const V normal_part = hn::IfThenElse(hn::Gt(trial_n, zero()), push, trial_n);
   const M tension = hn::Lt(normal_part, zero());
   const V capacity = hn::Mul(inverse_beta, shear_capacity);
   const V part = hn::IfThenElse(tension, hn::Max(normal_part, hn::Neg(capacity)), normal_part);
   // Exactly zero at full tension: what round-off would leave there has a large root.
   const V tension_limit2 = hn::Mul(hn::Mul(beta, beta), hn::Mul(hn::Sub(capacity, part), hn::Add(capacity, part)));
-  const V limit = hn::MulAdd(friction, part, shear_capacity);
+  const V limit = hn::MulAdd(resistance.friction, part, shear_capacity);
   const V limit2 = hn::IfThenElse(tension, tension_limit2, hn::Mul(limit, limit));
   const V size2 = dot(tangential, tangential);
   const V scale = hn::IfThenElse(hn::Gt(size2, limit2), hn::Sqrt(hn::Div(limit2, size2)), number(1.0));

@@ -10,6 +10,7 @@
 //
 #include <hwy/highway.h>
 
+#include "cohesive/ask_ahead-inl.hpp"
 #include "cohesive/impulse_law-inl.hpp"
 #include "cohesive/lane_rows-inl.hpp"
 
@@ -63,8 +64,6 @@ struct Lanes {
 };
 
 inline constexpr int log_row = 5, log_record = 6;
-inline constexpr Index rows_per_face = sizeof(CrackFace) / sizeof(Vec4);
-inline constexpr Index rotation_row = offsetof(CrackFace, rotation) / sizeof(Vec4);
 
 HWY_INLINE auto local_rows(const Lanes& l, const PerLane<std::uint16_t>& offsets, Index field) {
   return [base = l.local() + field, o = offsets.data() + l.lane0](Index lane)
@@ -267,13 +266,8 @@ HWY_INLINE void start_row(const Lanes& l, Index i, Spent& spent) {
   store(r.shear_capacity, row.shear_capacity, lane0);
   store(r.friction, row.friction, lane0);
   store(hn::IfThenElseZero(now.virgin, one), row.virgin, lane0);
-  const Vec3V last = where(acting, g.impulse);
-  const V last_n = dot(last, g.normal);
-  // A push starts smaller by what the gap still lets through: continuous in the gap, which round-off may open.
-  const V push = hn::Max(zero(), hn::Sub(last_n, closing_impulse));
-  const V kept = hn::IfThenElse(hn::Gt(last_n, zero()), push, last_n);
-  const Vec3V impulse = admissible(g.normal, number(l.k.law.beta), number(1.0 / l.k.law.beta), r.shear_capacity,
-                                   r.friction, kept, difference(last, scaled(last_n, g.normal)));
+  const Vec3V impulse = admissible(g.normal, number(l.k.law.beta), number(1.0 / l.k.law.beta), r, closing_impulse,
+                                   where(acting, g.impulse));
   store(impulse, row.impulse, lane0);
   const Vec3V total = sum(impulse, now.secant_impulse);
   Vec3V change_a = scaled(hn::Neg(xa.w), total), change_b = scaled(xb.w, total);
@@ -299,12 +293,8 @@ HWY_INLINE void relax_row(const Lanes& l, RecordRow& row, V beta, V inverse_beta
   const Vec3V n = load(row.normal, l.lane0), last = load(row.impulse, l.lane0);
   const V mass = load(row.effective_mass, l.lane0);
   const Vec3V trial = difference(last, scaled(mass, difference(b.xyz(), a.xyz())));
-  const V trial_n = dot(trial, n);
-  // A push only once the gap has closed.
-  const V push = hn::Max(zero(), hn::Sub(trial_n, load(row.closing_impulse, l.lane0)));
-  const V normal_part = hn::IfThenElse(hn::Gt(trial_n, zero()), push, trial_n);
-  const Vec3V impulse = admissible(n, beta, inverse_beta, load(row.shear_capacity, l.lane0),
-                                   load(row.friction, l.lane0), normal_part, difference(trial, scaled(trial_n, n)));
+  const Resistance resistance{load(row.shear_capacity, l.lane0), load(row.friction, l.lane0)};
+  const Vec3V impulse = admissible(n, beta, inverse_beta, resistance, load(row.closing_impulse, l.lane0), trial);
   store(impulse, row.impulse, l.lane0);
   const Vec3V change = difference(impulse, last);
   const Vec3V new_a = scaled_sum(hn::Neg(load(row.inverse_mass_a, l.lane0)), change, a.xyz());
@@ -364,57 +354,6 @@ HWY_INLINE void add_damage_losses(const Lanes& l, const Spent& spent) {
     l.view.losses[vertex].cohesive_shear += value[1][lane];
   }
 }
-
-// Records, faces and nodes of a group lie anywhere in memory: asked for ahead, they come while the group before is
-// solved, into the second-level cache, for the first holds the local rows. Where there are none the address is of no
-// use, which does not harm.
-HWY_INLINE void prefetch(const void* address) { __builtin_prefetch(address, 0, 2); }
-HWY_INLINE void prefetch_to_write(const void* address) { __builtin_prefetch(address, 1, 2); }
-
-HWY_INLINE void prefetch_nodes(const ImpulseView& view, const PerLane<Index>& nodes) {
-  for (const Index node : nodes) {
-    const std::ptrdiff_t first = 4 * std::ptrdiff_t{node};
-    prefetch_to_write(view.v + first);
-    prefetch(view.x + first);
-    prefetch(view.v_before + first);
-    prefetch(view.mass + node);
-  }
-}
-HWY_INLINE const Vec4* first_row_of_face(const ImpulseView& view, Index couple) {
-  return reinterpret_cast<const Vec4*>(view.faces) + (couple & ~(rows_per_face - 1));
-}
-HWY_INLINE void prefetch_records(const ImpulseView& view, const RecordSlots& slots) {
-  for (std::size_t lane = 0; lane < at(group_lanes); ++lane) {
-    prefetch_to_write(view.records + slots.record[lane]);
-    prefetch(first_row_of_face(view, slots.couple[lane]));
-  }
-}
-// Once the first lines of the faces are there.
-HWY_INLINE void prefetch_couples(const ImpulseView& view, const RecordSlots& slots) {
-  for (std::size_t lane = 0; lane < at(group_lanes); ++lane) {
-    const Index couple = slots.couple[lane];
-    if (couple == none) continue;
-    prefetch_to_write(reinterpret_cast<const Vec4*>(view.faces) + couple);
-    const Vec4* face = first_row_of_face(view, couple);
-    if ((*face)[3] != face_action::none) prefetch(face + rotation_row);
-  }
-}
-
-/// The group to be solved next, to be asked for meanwhile; may be null.
-struct NextGroup {
-  const ImpulseView& view;
-  const RecordGroup* group;
-
-  HWY_INLINE void ask_for_nodes(Index i) const {
-    if (group && i < group->num_nodes) prefetch_nodes(view, view.groups->nodes[at(group->first_nodes + i)]);
-  }
-  HWY_INLINE void ask_for_records(Index i) const {
-    if (group && i < group->num_slots) prefetch_records(view, view.groups->slots[at(group->first_slots + i)]);
-  }
-  HWY_INLINE void ask_for_couples(Index i) const {
-    if (group && i < group->num_slots) prefetch_couples(view, view.groups->slots[at(group->first_slots + i)]);
-  }
-};
 
 HWY_INLINE void solve_lanes(const Lanes& l, const NextGroup& next) {
   const V beta = number(l.k.law.beta), inverse_beta = number(1.0 / l.k.law.beta);
@@ -489,20 +428,6 @@ HWY_INLINE void book_row(const ImpulseView& view, const ImpulseCoefficients& k, 
   const Addresses rotating_faces =
       addresses<log_row + 3>(view.faces, only(rotating, face_indices), &workspace.idle_face);
   book_rotations(rotation_momenta(view, rotating_faces, a, b, workspace.idle_node), mean_a, mean_b, spent);
-}
-
-HWY_INLINE void prefetch_records_of(const ImpulseView& view, Index vertex) {
-  for (Index r = view.record_offsets[vertex]; r < view.record_offsets[vertex + 1]; ++r) prefetch(view.records + r);
-}
-HWY_INLINE void prefetch_surroundings_of(const ImpulseView& view, Index vertex) {
-  for (Index r = view.record_offsets[vertex]; r < view.record_offsets[vertex + 1]; ++r) {
-    const CrackRecord& record = view.records[r];
-    prefetch(view.faces + record.face);
-    for (const std::ptrdiff_t node : {record.node_a, record.node_b}) {
-      prefetch(view.v + 4 * node);
-      prefetch(view.v_before + 4 * node);
-    }
-  }
 }
 
 void BookVertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,

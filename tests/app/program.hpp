@@ -7,22 +7,14 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
 
-namespace knap {
+#include "tests/support/temporary_folder.hpp"
 
-inline std::string content(const std::filesystem::path& path) {
-  std::ostringstream text;
-  text << std::ifstream(path, std::ios::binary).rdbuf();
-  return text.str();
-}
+namespace knap {
 
 /// A program that runs.
 struct Started {
@@ -36,14 +28,8 @@ struct Ended {
 };
 
 /// A test with an empty folder, which is the program's working directory.
-class ProgramTest : public testing::Test {
+class ProgramTest : public TemporaryFolder {
  protected:
-  ProgramTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "knap_app_XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-  }
-  ~ProgramTest() override { std::filesystem::remove_all(folder); }
-
   Started start(const std::vector<std::string>& arguments) const {
     static int count = 0;
     const std::string number = std::to_string(++count);
@@ -74,8 +60,6 @@ class ProgramTest : public testing::Test {
   nlohmann::json report(const std::string& run_folder) const {
     return nlohmann::json::parse(content(folder / run_folder / "report.json"));
   }
-
-  std::filesystem::path folder;
 
  private:
   [[noreturn]] void execute(const std::vector<std::string>& arguments, const Started& started) const {

@@ -1,7 +1,8 @@
 #pragma once
 // The vertex impulses once more, one record after the other in plain scalars, from the published law: Moreau's
 // non-smooth dynamics with an initially rigid cohesive capacity, then linear softening (Camacho & Ortiz 1996; kappa
-// after Snozzi & Molinari 2013). Sums of magnitudes beside the results tell what round-off to expect.
+// after Snozzi & Molinari 2013). The law's own functions are those of linear_softening.hpp, whose work of separation is
+// tested there. Sums of magnitudes beside the results tell what round-off to expect.
 #include "cohesive/vertex_impulses.hpp"
 
 namespace knap::plain {
@@ -63,9 +64,7 @@ inline void add_loss(State& s, std::size_t vertex, double& term, double loss) {
 // unloading line is lost, 1/2 s0 dd times the conjugate opening over d^2.
 inline void grow(State& s, std::size_t vertex, Record& r, double jn, const Vec3& jt, Met& met) {
   const CohesiveLaw& law = s.law;
-  const double opening = jn > 0.0 ? jn : 0.0;
-  const double shear = law.beta / law.kappa * jt.norm();
-  const double d = std::sqrt(opening * opening + shear * shear);
+  const double d = std::sqrt(effective_opening2(law, jn, jt.squaredNorm()));
   if (d <= r.d_max) return;
   met.grows = true;
   const double reached = d < r.delta_c ? d : r.delta_c;
@@ -73,7 +72,7 @@ inline void grow(State& s, std::size_t vertex, Record& r, double jn, const Vec3&
   if (r.regime == RecordRegime::Softening) {
     const double in_shear = law.beta * law.beta / law.kappa * jt.squaredNorm();
     const double rate = 0.5 * r.strength * grown / (d * d);
-    add_loss(s, vertex, s.losses[vertex].cohesive, rate * (opening * opening + in_shear));
+    add_loss(s, vertex, s.losses[vertex].cohesive, rate * energy_opening2(law, jn, jt.squaredNorm()));
     s.losses[vertex].cohesive_shear += rate * in_shear;
   }
   r.d_max = reached;
@@ -98,22 +97,15 @@ inline void change_regime(const State& s, Record& r, Face& face, Met& met) {
 inline Vec3 secant_impulse(State& s, std::size_t vertex, const Record& r, const Vec3& n, double jn, const Vec3& jt,
                            bool starts) {
   const double mode = s.law.beta * s.law.beta / s.law.kappa;
-  const double opening = jn > 0.0 ? jn : 0.0;
-  const double stiffness = std::max(0.0, r.strength / r.d_max - r.strength / r.delta_c);
-  const Vec3 force = -stiffness * (opening * n + mode * jt);
+  const double stiffness = secant_stiffness(r.strength, r.d_max, r.delta_c);
+  const Vec3 force = -stiffness * (std::max(0.0, jn) * n + mode * jt);
   if (starts) {
-    const double stored = 0.5 * stiffness * (opening * opening + mode * jt.squaredNorm());
+    const double stored = 0.5 * stiffness * energy_opening2(s.law, jn, jt.squaredNorm());
     const double half_step = 0.5 * s.dt * force.dot(s.v_before[r.b] - s.v_before[r.a]);
     add_loss(s, vertex, s.losses[vertex].cohesive, -stored);
     add_loss(s, vertex, s.losses[vertex].cohesive, -half_step);
   }
   return s.dt * force;
-}
-
-inline double friction_coefficient(const CohesiveLaw& law, double damage) {
-  if (damage >= 1.0) return law.sliding_friction;
-  if (law.softening_friction == SofteningFriction::KeepsConfinedStrength) return law.internal_friction;
-  return law.internal_friction + damage * (law.sliding_friction - law.internal_friction);
 }
 
 inline double tension_capacity(const State& s, const Record& r) {
@@ -171,7 +163,7 @@ inline Solving start(State& s, std::size_t vertex, Record& r, Met& met) {
     if (r.regime == RecordRegime::Softening)
       q.secant = secant_impulse(s, vertex, r, face.normal, jn, jt, met.leaves_virgin);
     q.capacity = tension_capacity(s, r);
-    q.friction = friction_coefficient(s.law, std::min(1.0, r.d_max / r.delta_c));
+    q.friction = crack_friction(s.law, std::min(1.0, r.d_max / r.delta_c));
     const double pn = last.dot(face.normal);
     r.impulse = admissible(s, q, face.normal, after_closing(pn, q.free_closing), last - pn * face.normal, met);
     add_impulse(s, r, r.impulse + q.secant);
@@ -209,7 +201,7 @@ inline void book(State& s, std::size_t vertex, const Record& r) {
   const Vec3 pt = r.impulse - pn * face.normal;
   const bool virgin = r.regime == RecordRegime::Virgin;
   add_loss(s, vertex, virgin && pn <= 0.0 ? losses.cohesive : losses.closure, -pn * slip.dot(face.normal));
-  const double from_friction = friction_coefficient(s.law, std::min(1.0, r.d_max / r.delta_c)) * std::max(0.0, pn);
+  const double from_friction = crack_friction(s.law, std::min(1.0, r.d_max / r.delta_c)) * std::max(0.0, pn);
   const double from_cohesion = s.law.beta * tension_capacity(s, r);
   const double share = !virgin ? 1.0 : from_friction > 0.0 ? from_friction / (from_friction + from_cohesion) : 0.0;
   add_loss(s, vertex, losses.friction, -share * pt.dot(slip));

@@ -14,7 +14,7 @@
 #include "core/parallel.hpp"
 #include "io/vtk_writer.hpp"
 #include "tests/io/broken_ball.hpp"
-#include "tests/io/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace knap {
 namespace {

@@ -14,7 +14,7 @@
 
 #include "core/errors.hpp"
 #include "tests/io/full_disk.hpp"
-#include "tests/io/temporary_folder.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace knap {
 namespace {

@@ -1,11 +1,10 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
 #include "simulation/make_simulation.hpp"
 #include "simulation/step.hpp"
 #include "tests/support/bar_mesh.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace knap {
 
@@ -25,15 +24,6 @@ inline void advance(Simulation& s, int steps) {
   for (int i = 0; i < steps; ++i) ASSERT_EQ(step(s), StepStatus::Ok);
 }
 
-/// A test with an empty folder of its own.
-class ObserverTest : public testing::Test {
- protected:
-  ObserverTest() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "knap_observers_XXXXXX").string();
-    folder = mkdtemp(pattern.data());
-  }
-  ~ObserverTest() override { std::filesystem::remove_all(folder); }
-  std::filesystem::path folder;
-};
+using ObserverTest = TemporaryFolder;
 
 }  // namespace knap

@@ -13,7 +13,7 @@ namespace knap {
 class TemporaryFolder : public testing::Test {
  protected:
   TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "knap_io_XXXXXX").string();
+    std::string pattern = (std::filesystem::temp_directory_path() / "knap_test_XXXXXX").string();
     folder = mkdtemp(pattern.data());
   }
   ~TemporaryFolder() override { std::filesystem::remove_all(folder); }
