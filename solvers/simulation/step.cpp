@@ -109,7 +109,7 @@ void detect_contacts(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
   if (looks_for_fragments(s)) look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
-  s.contact.travel += largest_approach(s.nodes.v_before, s.clock.dt);  // the last drift's velocities
+  s.contact.travel += largest_approach(s.nodes.v, s.clock.dt);  // the last drift's velocities
   if (s.contact.travel > s.contact.skin)
     rebuild_candidates(s.contact, s.topology, s.nodes.x, vertices_with_records(s.cracks));
   refresh_contacts(s.contact, s.topology, s.nodes.x);
@@ -188,10 +188,10 @@ void balance_energies(Simulation& s) {
 
 StepStatus step(Simulation& s) {
   insert_new_cracks(s);
-  update_bulk(s);
-  kick_nodes(s);
   update_faces(s);
   detect_contacts(s);
+  update_bulk(s);
+  kick_nodes(s);
   apply_crack_impulses(s);
   apply_fragment_contacts(s);
   apply_wall(s);
