@@ -20,8 +20,8 @@ struct FactorSize {
 /// Cholesky factor of a sparse symmetric matrix, through CHOLMOD, whose objects this class guards. The pattern is
 /// analysed once; matrices of that pattern may then be factorised one after the other.
 ///
-/// NestedDissection is the default by measurement: a sphere of 45k tets takes 14 Gflop and 13 M numbers against 38 Gflop
-/// and 20 M by ApproximateMinDegree; below 5k tets there is no difference.
+/// NestedDissection is the default by measurement: a sphere of 45k tets takes 14 Gflop and 13 M numbers against 38
+/// Gflop and 20 M by ApproximateMinDegree; below 5k tets there is no difference.
 class SparseCholesky {
  public:
   /// Analyses the pattern of a lower triangle. Throws RuntimeFailure when memory runs out.
