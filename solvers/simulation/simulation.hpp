@@ -5,6 +5,7 @@
 #include "contact/contact_impulses.hpp"
 #include "core/energy_ledger.hpp"
 #include "core/nodal_state.hpp"
+#include "core/rigid_bodies.hpp"
 #include "fem/elastic_force.hpp"
 #include "simulation/options.hpp"
 #include "simulation/phase_times.hpp"
@@ -59,6 +60,7 @@ struct Simulation {
   ElasticForce elastic;
   CrackState cracks;
   ContactState contact;
+  RigidBodies rigid;
   EnergyLedger ledger;
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning
   RunTotals totals;
