@@ -36,7 +36,7 @@ SimulationOptions simulation_options(const RunConfig& config) {
                             .viscous_ratio = config.particles[0].material.viscous_ratio,
                             .relaxation_time = config.particles[0].material.relaxation_time,
                             .fracture = std::nullopt,
-                            .wall = Plane{.friction = config.impact.wall_friction},
+                            .tools = {wall(config.impact.wall_friction)},
                             .velocity = impact_velocity(config.impact),
                             .spin = config.impact.spin,
                             .step_safety = config.run.step_safety,
