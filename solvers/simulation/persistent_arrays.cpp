@@ -41,19 +41,14 @@ constexpr auto fields(const CrackLosses*) {
   return std::tuple{Field{"cohesive", &CrackLosses::cohesive}, Field{"closure", &CrackLosses::closure},
                     Field{"friction", &CrackLosses::friction}, Field{"cohesive_shear", &CrackLosses::cohesive_shear}};
 }
-constexpr auto fields(const ContactPoint*) {
-  return std::tuple{Field{"nodes", &ContactPoint::nodes}, Field{"key", &ContactPoint::key},
-                    Field{"fragment", &ContactPoint::fragment}};
-}
 constexpr auto fields(const ContactCandidate*) {
-  return std::tuple{Field{"point", &ContactCandidate::point}, Field{"tet", &ContactCandidate::tet},
+  return std::tuple{Field{"tets", &ContactCandidate::tets}, Field{"fragments", &ContactCandidate::fragments},
                     Field{"due", &ContactCandidate::due}};
 }
+// Its sides follow from the positions before they are used again; what is kept is what the next step starts from.
 constexpr auto fields(const Contact*) {
-  return std::tuple{Field{"point_key", &Contact::point_key}, Field{"tet", &Contact::tet},
-                    Field{"face", &Contact::face},           Field{"impulse", &Contact::impulse},
-                    Field{"normal", &Contact::normal},       Field{"nodes", &Contact::nodes},
-                    Field{"weights", &Contact::weights},     Field{"depth", &Contact::depth}};
+  return std::tuple{Field{"tets", &Contact::tets}, Field{"point", &Contact::point}, Field{"place", &Contact::place},
+                    Field{"normal", &Contact::normal}, Field{"impulse", &Contact::impulse}};
 }
 constexpr auto fields(const BranchState*) {
   return std::tuple{Field{"decay", &BranchState::decay}, Field{"stored", &BranchState::stored},
@@ -236,7 +231,10 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.plain("cracks.vertices", s.cracks.vertices);
   visit.plain("contact.fragment_of_tet", s.contact.fragment_of_tet);
   visit.plain("contact.free_faces", s.contact.free_faces);
-  visit.structs("contact.points", s.contact.points);
+  visit.plain("contact.surface_nodes.offsets", s.contact.surface_nodes.offsets);
+  visit.plain("contact.surface_nodes.items", s.contact.surface_nodes.items);
+  visit.plain("contact.travel", s.contact.travel);
+  visit.plain("contact.margin", s.contact.margin);
   visit.structs("contact.candidates", s.contact.candidates);
   visit.structs("contact.contacts", s.contact.contacts);
   visit.plain("branch.groups", s.elastic.branch.groups);
@@ -271,8 +269,10 @@ std::string case_hash(const Simulation& s) {
 Checkpoint make_checkpoint(const Simulation& s) {
   Checkpoint checkpoint;
   visit_persistent(Writer{checkpoint}, s);
-  checkpoint.doubles["scalars"] = {s.cracks.cracked_area, static_cast<double>(s.cracks.last_damage_step),
-                                   s.contact.dissipated, static_cast<double>(s.contact.fragments), s.contact.travel};
+  checkpoint.doubles["scalars"] = {s.cracks.cracked_area,        static_cast<double>(s.cracks.last_damage_step),
+                                   s.contact.dissipated,         static_cast<double>(s.contact.fragments),
+                                   s.contact.frame_velocity.x(), s.contact.frame_velocity.y(),
+                                   s.contact.frame_velocity.z()};
   checkpoint.texts["case"] = case_hash(s);
   return checkpoint;
 }
@@ -289,7 +289,7 @@ void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
   s.cracks.last_damage_step = static_cast<std::int64_t>(scalars.at(1));
   s.contact.dissipated = scalars.at(2);
   s.contact.fragments = static_cast<Index>(scalars.at(3));
-  s.contact.travel = scalars.at(4);
+  s.contact.frame_velocity = {scalars.at(4), scalars.at(5), scalars.at(6)};
   for (Index slot = 0; slot < to_index(s.cracks.faces.size()); ++slot)
     s.cracks.face_of_facet[at(s.cracks.faces[at(slot)].facet)] = slot;
   group_records(s.cracks);

@@ -6,6 +6,7 @@
 #include "contact/tool_contact.hpp"
 #include "core/energy_ledger.hpp"
 #include "core/nodal_state.hpp"
+#include "core/rigid_bodies.hpp"
 #include "fem/elastic_force.hpp"
 #include "simulation/options.hpp"
 #include "simulation/phase_times.hpp"
@@ -58,6 +59,7 @@ struct Simulation {
   ContactState contact;
   std::vector<Tool> tools;            ///< in the order of options.tools
   std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending
+  RigidBodies rigid;
   EnergyLedger ledger;
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning
   RunTotals totals;
