@@ -47,11 +47,6 @@ bool has_changed(const RigidBody& body) {
 
 }  // namespace
 
-void update_inertia(RigidBody& body) {
-  const Mat3 rotation = body.orientation.toRotationMatrix();
-  body.inverse_inertia_world = rotation * body.inverse_inertia * rotation.transpose();
-}
-
 void rotate_freely(RigidBody& body, double dt) {
   if (body.angular_momentum.isZero(0.0)) return;
   const Vec3 w = midpoint_spin(body, body.orientation.conjugate() * body.angular_momentum, dt);
@@ -91,6 +86,19 @@ void place_nodes(const RigidBodies& rigid, NodalState& nodes) {
     nodes.x[at(node)] = padded(body.centre + r);
     nodes.v[at(node)] = padded(body.velocity + spin(body).cross(r));
   });
+}
+
+void take_nodal_impulses(RigidBodies& rigid, const NodalState& nodes) {
+  parallel_for(
+      rigid.num_bodies(),
+      [&](Index b) {
+        for (const Index node : rigid.nodes_of_body[b]) {
+          const Vec3 change = xyz(nodes.v[at(node)]) - xyz(nodes.v_before[at(node)]);
+          if (!change.isZero(0.0))
+            apply_impulse(rigid.bodies[at(b)], xyz(nodes.x[at(node)]), nodes.mass[at(node)] * change);
+        }
+      },
+      bodies_per_block);
 }
 
 void update_node_velocities(const RigidBodies& rigid, NodalState& nodes) {
