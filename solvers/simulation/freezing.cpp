@@ -11,6 +11,17 @@
 namespace knap {
 namespace {
 
+// A tool that could touch a body within so many steps wakes it.
+constexpr double steps_ahead = 2.0;
+
+// Bound of the speed of a body's matter against any tool [m/s].
+double fastest(const Simulation& s, const RigidBody& body) {
+  double tool_speed = 0.0;
+  for (const Tool& tool : s.tools)
+    tool_speed = std::max(tool_speed, tool.velocity_at(body.centre).norm() + tool.state.spin.norm() * body.radius);
+  return tool_speed + body.velocity.norm() + spin(body).norm() * body.radius;
+}
+
 // Those of no body work from now on, the others sleep.
 void refresh_sleepers(Simulation& s) {
   std::vector<Index> active;
@@ -45,8 +56,26 @@ void let_branch_go(Simulation& s, std::span<const QuietFragment> fragments, doub
   branch.stored -= gone;
 }
 
+// The contact layer tells what has hit a body only after it has stopped it.
+void note_approaches(Simulation& s) {
+  const auto velocity = [&s](const ContactSide& side, const Vec3& place) {
+    if (side.body != none) return velocity_at(s.rigid.bodies[at(side.body)], place);
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t i = 0; i < 4; ++i) sum += side.weights[i] * xyz(s.nodes.v[at(side.nodes[i])]);
+    return sum;
+  };
+  for (const Contact& contact : s.contact.contacts) {
+    const auto& [first, second] = contact.sides;
+    if (first.body == none && second.body == none) continue;
+    const double approach = -contact.normal.dot(velocity(second, contact.place) - velocity(first, contact.place));
+    for (const Index b : {first.body, second.body})
+      if (b != none) s.rigid.approach[at(b)] = std::max(s.rigid.approach[at(b)], approach);
+  }
+}
+
 bool must_wake(const Simulation& s, Index b) {
   const RigidBody& body = s.rigid.bodies[at(b)];
+  if (is_near_tool(s, s.rigid.nodes_of_body[b], body, steps_ahead * s.clock.dt * fastest(s, body))) return true;
   if (!body.can_break()) return false;
   const RigidFragmentOptions& options = s.options.rigid_fragments;
   return 0.9 * body.load > options.load_share * body.strength * body.size * body.size ||
@@ -71,10 +100,11 @@ void freeze_quiet_fragments(Simulation& s) {
   s.ledger[EnergyTerm::RigidVibration] = s.freezing.vibration;
 }
 
-void wake_loaded_bodies(Simulation& s) {
+bool wake_loaded_bodies(Simulation& s) {
+  note_approaches(s);
   std::vector<std::uint8_t> wakes(s.rigid.bodies.size(), 0);
   for (Index b = 0; b < s.rigid.num_bodies(); ++b) wakes[at(b)] = must_wake(s, b) ? 1 : 0;
-  if (std::count(wakes.begin(), wakes.end(), 1) == 0) return;
+  if (std::count(wakes.begin(), wakes.end(), 1) == 0) return false;
   const Csr tets_of_body = make_csr(s.rigid.num_bodies(), s.rigid.body_of_tet);
   for (Index b = 0; b < s.rigid.num_bodies(); ++b) {
     if (wakes[at(b)] == 0) continue;
@@ -85,6 +115,7 @@ void wake_loaded_bodies(Simulation& s) {
   }
   remove_bodies(s.rigid, wakes);
   refresh_sleepers(s);
+  return true;
 }
 
 void average_loads(Simulation& s) {

@@ -12,6 +12,8 @@ namespace knap {
 namespace {
 
 constexpr Index fragments_per_block = 16;
+// What is this much of the mean edge from a tool is not frozen: it would soon have to wake.
+constexpr double clear_of_tools = 0.1;
 
 Index other_side(const Topology& topology, Index facet, Index tet) {
   const auto& sides = topology.facet_tets[at(facet)];
@@ -149,10 +151,20 @@ std::optional<QuietFragment> quiet_fragment(const Simulation& s, std::span<const
   fragment.body = rigid_body(s, tets, fragment.nodes);
   fragment.vibration = kinetic_energy_of(s.nodes, fragment.nodes) - kinetic_energy(fragment.body);
   if (!may_freeze(s, fragment)) return std::nullopt;
+  if (is_near_tool(s, fragment.nodes, fragment.body, clear_of_tools * s.reference.mean_edge)) return std::nullopt;
   return fragment;
 }
 
 }  // namespace
+
+bool is_near_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance) {
+  for (const Tool& tool : s.tools) {
+    if (proximity(tool, body.centre).gap > body.radius + distance) continue;
+    for (const Index node : nodes)
+      if (proximity(tool, xyz(s.nodes.x[at(node)])).gap <= distance) return true;
+  }
+  return false;
+}
 
 // A facet cracked since the last look counts as a change whatever its damage.
 void note_changes(Simulation& s) {

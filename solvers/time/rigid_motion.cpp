@@ -88,19 +88,6 @@ void place_nodes(const RigidBodies& rigid, NodalState& nodes) {
   });
 }
 
-void take_nodal_impulses(RigidBodies& rigid, const NodalState& nodes) {
-  parallel_for(
-      rigid.num_bodies(),
-      [&](Index b) {
-        for (const Index node : rigid.nodes_of_body[b]) {
-          const Vec3 change = xyz(nodes.v[at(node)]) - xyz(nodes.v_before[at(node)]);
-          if (!change.isZero(0.0))
-            apply_impulse(rigid.bodies[at(b)], xyz(nodes.x[at(node)]), nodes.mass[at(node)] * change);
-        }
-      },
-      bodies_per_block);
-}
-
 void update_node_velocities(const RigidBodies& rigid, NodalState& nodes) {
   parallel_for(to_index(rigid.place.size()), [&](Index i) {
     const Index node = rigid.nodes_of_body.items[at(i)];

@@ -22,9 +22,6 @@ void drift(RigidBodies& rigid, double dt);
 /// Positions and velocities of the bodies' nodes from the bodies.
 void place_nodes(const RigidBodies& rigid, NodalState& nodes);
 
-/// Gives the bodies the impulses that have acted on single nodes of theirs since the kick.
-void take_nodal_impulses(RigidBodies& rigid, const NodalState& nodes);
-
 /// Velocities of the nodes of those bodies that kick or impulses have changed in this step.
 void update_node_velocities(const RigidBodies& rigid, NodalState& nodes);
 

@@ -42,6 +42,7 @@ RigidBody make_rigid_body(std::span<const Index> nodes, const NodalState& state)
   for (const Index node : nodes) {
     const Vec3 r = xyz(state.x[at(node)]) - body.centre;
     const Vec3 v = xyz(state.v[at(node)]) - body.velocity;
+    body.radius = std::max(body.radius, r.norm());
     body.angular_momentum += state.mass[at(node)] * r.cross(v);
     body.inertia += state.mass[at(node)] * (r.squaredNorm() * Mat3::Identity() - r * r.transpose());
   }

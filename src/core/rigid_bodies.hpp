@@ -25,6 +25,7 @@ struct RigidBody {
   Mat3 inverse_inertia = Mat3::Zero();                              ///< body axes [1/(kg m2)]
   Mat3 inverse_inertia_world = Mat3::Zero();                        ///< derived: at the current orientation [1/(kg m2)]
   double size = 0.0;                                                ///< diameter of the sphere of its volume [m]
+  double radius = 0.0;          ///< of the sphere about the centre that holds its nodes [m]
   double strength = 0.0;        ///< of its weakest facet [Pa]; infinite = nothing left to break
   double critical_speed = 0.0;  ///< at which an impact could break it [m/s]; infinite likewise
   double crossing_time = 0.0;   ///< of a wave [s]

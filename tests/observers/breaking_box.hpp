@@ -15,7 +15,7 @@ inline Simulation breaking_box(double viscous_ratio = 0.0) {
   SimulationOptions options{
       .young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0, .fracture = std::nullopt};
   options.fracture = FractureOptions{.law = {}, .strength = 8.34e6, .fracture_energy = 8.6};
-  options.wall = Plane{.friction = 0.3};
+  options.tools = {wall(0.3)};
   options.velocity = Vec3(5.0, 0.0, -30.0);
   options.viscous_ratio = viscous_ratio;
   options.relaxation_time = 2e-6;
