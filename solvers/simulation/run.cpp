@@ -26,6 +26,7 @@ void notice_damage(Simulation& s) {
 // impact is over.
 bool is_at_rest(const Simulation& s, const RunLimits& limits) {
   if (s.options.wall && s.totals.first_wall_step < 0) return false;
+  if (s.options.particles.size() > 1 && s.totals.first_wall_step < 0 && s.totals.last_contact_step < 0) return false;
   const std::int64_t quiet_steps = static_cast<std::int64_t>(limits.quiet_time / s.clock.dt);
   const std::int64_t last = std::max({s.cracks.last_damage_step, s.totals.last_wall_step, s.totals.last_contact_step});
   return s.clock.step - last > quiet_steps;

@@ -30,19 +30,20 @@ FractureOptions fracture_options(const FractureConfig& fracture) {
 }  // namespace
 
 SimulationOptions simulation_options(const RunConfig& config) {
-  SimulationOptions options{.young_modulus = config.material.young_modulus,
-                            .poisson_ratio = config.material.poisson_ratio,
-                            .density = config.material.density,
-                            .viscous_ratio = config.material.viscous_ratio,
-                            .relaxation_time = config.material.relaxation_time,
-                            .fracture = std::nullopt,
-                            .wall = Plane{.friction = config.impact.wall_friction},
-                            .velocity = impact_velocity(config.impact),
-                            .spin = config.impact.spin,
-                            .step_safety = config.run.step_safety,
-                            .insertion_interval = config.run.insertion_interval};
-  if (config.fracture.insertion != Insertion::None) options.fracture = fracture_options(config.fracture);
-  return options;
+  ParticleOptions particle{.young_modulus = config.material.young_modulus,
+                           .poisson_ratio = config.material.poisson_ratio,
+                           .density = config.material.density,
+                           .viscous_ratio = config.material.viscous_ratio,
+                           .relaxation_time = config.material.relaxation_time,
+                           .fracture = std::nullopt,
+                           .friction = config.fracture.sliding_friction,
+                           .velocity = impact_velocity(config.impact),
+                           .spin = config.impact.spin};
+  if (config.fracture.insertion != Insertion::None) particle.fracture = fracture_options(config.fracture);
+  return {.particles = {particle},
+          .wall = Plane{.friction = config.impact.wall_friction},
+          .step_safety = config.run.step_safety,
+          .insertion_interval = config.run.insertion_interval};
 }
 
 }  // namespace knap
