@@ -281,11 +281,17 @@ std::string case_hash(const Simulation& s) {
   hash.add(s.reference.facet_strength);
   hash.add(s.reference.fracture_energy);
   const SimulationOptions& o = s.options;
-  const CohesiveLaw law = o.fracture ? o.fracture->law : CohesiveLaw{};
-  hash.add(std::vector{o.young_modulus, o.poisson_ratio, o.density, o.viscous_ratio, o.relaxation_time, o.step_safety,
-                       law.beta, law.kappa, law.internal_friction, law.sliding_friction,
-                       static_cast<double>(law.softening_friction), o.velocity.x(), o.velocity.y(), o.velocity.z(),
-                       o.spin.x(), o.spin.y(), o.spin.z()});
+  for (std::size_t p = 0; p < o.particles.size(); ++p) {
+    const ParticleOptions& particle = o.particles[p];
+    const CohesiveLaw& law = s.reference.laws[p];
+    hash.add(std::vector{particle.young_modulus, particle.poisson_ratio, particle.density, particle.viscous_ratio,
+                         particle.relaxation_time, particle.friction, law.beta, law.kappa, law.internal_friction,
+                         law.sliding_friction, static_cast<double>(law.softening_friction), particle.velocity.x(),
+                         particle.velocity.y(), particle.velocity.z(), particle.spin.x(), particle.spin.y(),
+                         particle.spin.z()});
+  }
+  hash.add(s.reference.particle_of_tet);
+  hash.add(std::vector{o.step_safety});
   for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
   const RigidFragmentOptions& r = o.rigid_fragments;
   hash.add(std::vector{r.enabled ? 1.0 : 0.0, r.quiet_crossings, static_cast<double>(r.quiet_steps),

@@ -26,7 +26,7 @@ void notice_damage(Simulation& s) {
 // Nothing inserted or noticeably damaged, no contact with a tool or between fragments, for the quiet time; and the
 // impact is over.
 bool is_at_rest(const Simulation& s, const RunLimits& limits) {
-  if (!has_touched_a_tool(s)) return false;
+  if (!has_met_something(s)) return false;
   const std::int64_t quiet_steps = static_cast<std::int64_t>(limits.quiet_time / s.clock.dt);
   std::int64_t last = std::max(s.cracks.last_damage_step, s.totals.last_contact_step);
   for (const Tool& tool : s.tools) last = std::max(last, tool.state.last_step);
@@ -40,9 +40,10 @@ void show(const Simulation& s, std::span<Observer* const> observers, bool all) {
 
 }  // namespace
 
-bool has_touched_a_tool(const Simulation& s) {
+bool has_met_something(const Simulation& s) {
   const auto touched = [](const Tool& tool) { return tool.state.first_step >= 0; };
-  return s.tools.empty() || std::any_of(s.tools.begin(), s.tools.end(), touched);
+  if (std::any_of(s.tools.begin(), s.tools.end(), touched)) return true;
+  return s.options.particles.size() > 1 ? s.totals.last_contact_step >= 0 : s.tools.empty();
 }
 
 std::string_view name(StopReason reason) {

@@ -21,7 +21,7 @@ constexpr double largest_step_safety = 0.9;
 constexpr double landing_tolerance_over_edge = 1e-6;
 
 VertexImpulseOptions impulse_options(const Simulation& s) {
-  return {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps};
+  return {s.reference.laws, s.clock.dt, s.options.impulse_sweeps};
 }
 
 bool looks_for_fragments(const Simulation& s) { return s.clock.step % s.options.label_interval == 0; }
@@ -57,11 +57,12 @@ void scale_masses(Simulation& s, std::span<const Index> split_vertices) {
 }
 
 void insert_new_cracks(Simulation& s) {
-  if (!s.options.fracture || s.clock.step % s.options.insertion_interval != 0) return;
+  if (!can_break(s.options) || s.clock.step % s.options.insertion_interval != 0) return;
   const PhaseTimer timer(s.phase_times, Phase::Insertion);
   update_stress(s.elastic, s.nodes.x);
-  const auto overloaded = overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound},
-                                            s.reference.facet_strength, s.options.fracture->law);
+  const auto overloaded =
+      overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound}, s.reference.facet_strength,
+                        {s.reference.laws, s.reference.particle_of_tet});
   if (overloaded.empty()) return;
   const auto change = insert_cracks(s.cracks, s.topology, s.nodes, overloaded,
                                     {.dt = s.clock.dt,
@@ -146,7 +147,7 @@ bool look_for_new_fragments(Simulation& s) {
 }
 
 void detect_contacts(Simulation& s) {
-  if (!s.options.fracture || s.totals.inserted_facets == 0) return;
+  if (s.options.particles.size() == 1 && s.totals.inserted_facets == 0) return;  // in one piece
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
   const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
@@ -164,8 +165,10 @@ void apply_crack_impulses(Simulation& s) {
 void apply_fragment_contacts(Simulation& s) {
   if (s.contact.contacts.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactImpulses);
-  apply_contact_impulses(s.contact, s.nodes, s.rigid,
-                         {.friction = s.options.fracture->law.sliding_friction, .sweeps = s.options.contact_sweeps});
+  apply_contact_impulses(
+      s.contact, s.nodes, s.rigid,
+      {.pairs = {s.reference.pair_friction, s.reference.particle_of_tet, to_index(s.options.particles.size())},
+       .sweeps = s.options.contact_sweeps});
   for (const Contact& contact : s.contact.contacts)
     if (contact.impulse.squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
 }
@@ -218,7 +221,7 @@ void update_ledger(Simulation& s) {
   const BulkState bulk = bulk_state(s.elastic, s.nodes.x);
   s.totals.smallest_volume_ratio = std::min(s.totals.smallest_volume_ratio, bulk.smallest_volume_ratio);
   ledger[EnergyTerm::Strain] = bulk.strain_energy - half_step_work(s.nodes, s.clock.dt) + frozen_strain_energy(s.rigid);
-  if (s.options.fracture) {
+  if (can_break(s.options)) {
     const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
     ledger[EnergyTerm::CohesiveStored] = cracks.stored;
     ledger[EnergyTerm::CohesiveDissipated] = cracks.losses.cohesive;

@@ -113,7 +113,7 @@ ExitCode run_in_folder(PreparedRun& run, const SessionOptions& options, RunLog& 
   const Session session = run_session(run, options, log);
   const RunOutcome outcome = run_outcome(run.simulation, run.identity, session);
   write_results(run.simulation, outcome, options, log);
-  if (session.stop_reason == StopReason::EndTime && !has_touched_a_tool(run.simulation))
+  if (session.stop_reason == StopReason::EndTime && !has_met_something(run.simulation))
     log.warn(fmt::format("the particle had not reached the wall at the end, {:.4g} us; a later run.end_time is needed",
                          1e6 * run.simulation.clock.time()));
   const ExitCode code = exit_code(session.stop_reason);

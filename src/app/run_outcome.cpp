@@ -12,6 +12,8 @@ namespace {
 
 Pieces pieces(const Simulation& s, FragmentLabel label) {
   const auto labels = fragment_labels(s.topology, s.cracks, label);
+  std::vector<double> densities;
+  for (const ParticleOptions& particle : s.options.particles) densities.push_back(particle.density);
   Pieces result;
   result.fragment_of_tet = labels_by_size(labels, s.reference.tet_volume);
   result.fragments = find_fragments({.tet_nodes = s.topology.tet_nodes,
@@ -20,8 +22,9 @@ Pieces pieces(const Simulation& s, FragmentLabel label) {
                                      .x = s.nodes.x,
                                      .v = s.nodes.v,
                                      .tet_volume = s.reference.tet_volume,
-                                     .density = s.options.density,
-                                     .label = labels});
+                                     .densities = densities,
+                                     .label = labels,
+                                     .particle_of_tet = s.reference.particle_of_tet});
   return result;
 }
 
