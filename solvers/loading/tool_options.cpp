@@ -1,5 +1,8 @@
 #include "loading/tool_options.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace knap {
 namespace {
 
@@ -51,6 +54,22 @@ ToolOptions wall(double friction, const Vec3& point, const Vec3& normal) {
   options.orientation = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), normal);
   options.friction = friction;
   return options;
+}
+
+double carried_energy(std::span<const ToolOptions> options, double mass) {
+  struct Speed {
+    const ToolOptions& tool;
+    double operator()(const AtRest&) const { return 0.0; }
+    double operator()(const ConstantVelocity& motion) const { return motion.velocity.norm(); }
+    double operator()(const Ramp& motion) const { return motion.velocity.norm(); }
+    double operator()(const Rotation& motion) const {
+      const Vec3 axis = motion.axis.normalized();
+      return std::abs(motion.angular_speed) * axis.cross(tool.position - motion.centre).norm();
+    }
+  };
+  double fastest = 0.0;
+  for (const ToolOptions& tool : options) fastest = std::max(fastest, std::visit(Speed{tool}, tool.motion));
+  return 0.5 * mass * fastest * fastest;
 }
 
 std::vector<Tool> make_tools(std::span<const ToolOptions> options, double dt) {

@@ -21,6 +21,10 @@ ToolOptions wall(double friction = 0.0, const Vec3& point = Vec3::Zero(), const 
 /// Everything of a tool that decides how a run goes, to tell cases apart; its name does not.
 std::vector<double> defining_numbers(const ToolOptions& options);
 
+/// Kinetic energy [J] of a mass [kg] carried along by the fastest tool: what a run without an impact is measured by
+/// until its tools have done more.
+double carried_energy(std::span<const ToolOptions> options, double mass);
+
 /// The tools at time 0, each with the velocity it comes with.
 std::vector<Tool> make_tools(std::span<const ToolOptions> options, double dt);
 

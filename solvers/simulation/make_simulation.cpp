@@ -90,7 +90,7 @@ Simulation make_simulation(const SimulationOptions& options, const TetMesh& mesh
 
   reference.start = momentum(s.nodes);
   reference.incident_energy = kinetic_energy(s.nodes);
-  s.ledger.reference = reference.incident_energy;
+  s.ledger.reference = reference.incident_energy + carried_energy(options.tools, reference.start.mass);
   update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, 0.0);
   balance_energies(s);
   s.ledger.initial = s.ledger.total();

@@ -18,7 +18,7 @@ constexpr double noticeable_share = 1e-5;
 void notice_damage(Simulation& s) {
   if ((s.clock.step - 1) % s.options.ledger_interval != 0) return;
   const double spent = s.ledger[EnergyTerm::CohesiveDissipated];
-  if (std::abs(spent - s.totals.noted_damage) <= noticeable_share * s.reference.incident_energy) return;
+  if (std::abs(spent - s.totals.noted_damage) <= noticeable_share * s.ledger.reference) return;
   s.totals.noted_damage = spent;
   s.cracks.last_damage_step = s.clock.step;
 }

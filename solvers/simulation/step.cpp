@@ -169,6 +169,9 @@ void balance_tools(Simulation& s) {
     ledger[EnergyTerm::ToolImpact] += tool.state.impact_loss;
     ledger[EnergyTerm::ToolWork] -= tool.state.work;
   }
+  // What the tools have put in counts as what the particle brought with it.
+  const double put_in = s.reference.incident_energy + std::abs(ledger[EnergyTerm::ToolWork]);
+  ledger.reference = std::max(ledger.reference, put_in);
 }
 
 StepStatus check_energies(Simulation& s) {

@@ -2,7 +2,9 @@
 
 #include <cstdio>
 
+#include "app/case_tools.hpp"
 #include "app/commands.hpp"
+#include "app/compression_results.hpp"
 #include "app/fragment_tables.hpp"
 #include "app/interrupt.hpp"
 #include "app/report.hpp"
@@ -62,7 +64,9 @@ PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& lo
   const MeshQuality& quality = particle.quality;
   log.info(fmt::format("{} tets, {} nodes, shape quality {:.2f} mean, {:.2f} worst\n", quality.num_tets,
                        quality.num_vertices, quality.mean_shape, quality.min_shape));
-  Simulation s = make_simulation(simulation_options(config), particle.mesh);
+  SimulationOptions options = simulation_options(config);
+  options.tools = tool_options(config, std::span(&particle.mesh, 1), initial_gap(particle.contact_element_size));
+  Simulation s = make_simulation(options, particle.mesh);
   const SanityCard card = run_card(config, particle, s);
   log.info(format_sanity_card(card));
   check_card(card, config, log);
@@ -86,11 +90,23 @@ void show(const std::string& text, bool quiet, RunLog& log) {
   std::fflush(stdout);
 }
 
+void write_compression(const RunFolder& folder, const RunOutcome& outcome, bool picture, RunLog& log) {
+  if (!outcome.compression) return;
+  write_force_displacement(folder.force_displacement(), *outcome.compression);
+  if (!picture || outcome.compression->fracture.force == 0.0) return;
+  try {
+    draw_force_displacement(folder.force_plot(), *outcome.compression, outcome.case_name);
+  } catch (const RuntimeFailure& failure) {
+    log.warn(fmt::format("no plot: {}", failure.what()));
+  }
+}
+
 void write_results(const Simulation& s, const RunOutcome& outcome, const SessionOptions& options, RunLog& log) {
   const RunFolder& folder = options.folder;
   write_report(folder.report(), s, outcome);
   write_fragments(folder.fragments(), outcome);
   write_size_distribution(folder.size_distribution(), outcome, s);
+  write_compression(folder, outcome, options.output.picture, log);
   if (options.output.picture && outcome.session.stop_reason != StopReason::Interrupted) draw(folder, s, outcome, log);
   show(summary(s, outcome, folder.path.string(), shows_utf8()), options.quiet, log);
 }
@@ -111,10 +127,12 @@ ExitCode exit_code(StopReason reason) {
 
 ExitCode run_in_folder(PreparedRun& run, const SessionOptions& options, RunLog& log) {
   const Session session = run_session(run, options, log);
-  const RunOutcome outcome = run_outcome(run.simulation, run.identity, session);
+  RunOutcome outcome = run_outcome(run.simulation, run.identity, session);
+  outcome.compression = compression(run.simulation, run.identity, options.folder.history());
   write_results(run.simulation, outcome, options, log);
   if (session.stop_reason == StopReason::EndTime && !has_touched_a_tool(run.simulation))
-    log.warn(fmt::format("the particle had not reached the wall at the end, {:.4g} us; a later run.end_time is needed",
+    log.warn(fmt::format("the particle had not reached {} at the end, {:.4g} us; a later run.end_time is needed",
+                         run.simulation.tools.size() > 1 ? "any tool" : "the " + run.simulation.tools.front().name,
                          1e6 * run.simulation.clock.time()));
   const ExitCode code = exit_code(session.stop_reason);
   if (code == ExitCode::EnergyNotClosed) log.error(failure_message(run.simulation, session.stop_reason));

@@ -72,7 +72,7 @@ std::string_view status(StopReason reason) {
 
 std::string failure_message(const Simulation& s, StopReason reason) {
   const EnergyTerm term = most_changed(s.last_good_ledger, s.ledger);
-  const double incident = s.reference.incident_energy;
+  const double incident = s.ledger.reference;
   const std::string change = fmt::format(
       "since the balance was last within 1 %, {} changed most: from {:.4g} to {:.4g} of the incident energy",
       name(term), s.last_good_ledger[term] / incident, s.ledger[term] / incident);

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "analysis/breakage.hpp"
+#include "analysis/compression.hpp"
 #include "analysis/sanity_card.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "observers/fragment_census.hpp"
@@ -24,6 +25,14 @@ struct Session {
   int threads = 1;
 };
 
+/// What a driven tool found out about the particle's strength.
+struct Compression {
+  std::string tool;
+  ForceCurve curve;
+  std::vector<double> smoothed{};  ///< force at the curve's times [N]
+  FractureForce fracture{};
+};
+
 /// All that report, tables, picture and summary tell.
 struct RunOutcome {
   std::string case_name;
@@ -36,6 +45,7 @@ struct RunOutcome {
   Rebound rebound;
   MomentumErrors momentum;
   std::string state_hash;
+  std::optional<Compression> compression{};  ///< absent where no tool presses
 };
 
 /// What a run is known by before it starts.

@@ -29,20 +29,23 @@ FractureOptions fracture_options(const FractureConfig& fracture) {
 
 }  // namespace
 
+Vec3 start_velocity(const RunConfig& config, const ParticleConfig& particle) {
+  return particle.velocity.value_or(impact_velocity(config.impact));
+}
+
 SimulationOptions simulation_options(const RunConfig& config) {
-  SimulationOptions options{.young_modulus = config.particles[0].material.young_modulus,
-                            .poisson_ratio = config.particles[0].material.poisson_ratio,
-                            .density = config.particles[0].material.density,
-                            .viscous_ratio = config.particles[0].material.viscous_ratio,
-                            .relaxation_time = config.particles[0].material.relaxation_time,
+  const ParticleConfig& particle = config.particles.front();
+  SimulationOptions options{.young_modulus = particle.material.young_modulus,
+                            .poisson_ratio = particle.material.poisson_ratio,
+                            .density = particle.material.density,
+                            .viscous_ratio = particle.material.viscous_ratio,
+                            .relaxation_time = particle.material.relaxation_time,
                             .fracture = std::nullopt,
-                            .tools = {wall(config.impact.wall_friction)},
-                            .velocity = impact_velocity(config.impact),
-                            .spin = config.impact.spin,
+                            .velocity = start_velocity(config, particle),
+                            .spin = particle.spin.value_or(config.impact.spin),
                             .step_safety = config.run.step_safety,
                             .insertion_interval = config.run.insertion_interval};
-  if (config.particles[0].fracture.insertion != Insertion::None)
-    options.fracture = fracture_options(config.particles[0].fracture);
+  if (particle.fracture.insertion != Insertion::None) options.fracture = fracture_options(particle.fracture);
   return options;
 }
 

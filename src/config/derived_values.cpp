@@ -110,6 +110,33 @@ void check_tool(const ToolConfig& tool, std::vector<std::string>& found) {
     found.push_back(fmt::format("tool.motion = \"free\": a plane has no mass; take a platen (tool {})", tool.name));
 }
 
+void check_positions(const RunConfig& config, std::vector<std::string>& found) {
+  for (std::size_t i = 1; i < config.particles.size(); ++i)
+    if (!config.particles[i].position)
+      found.push_back(
+          fmt::format("particle.position is missing: of several particles, only the first is placed on the "
+                      "plane z = 0 (particle {})",
+                      config.particles[i].name));
+  for (const ToolConfig& tool : config.tools)
+    if (tool.motion == MotionKind::Rotation && !tool.position)
+      found.push_back(fmt::format("tool.position is missing: needed when motion = \"rotation\" (tool {})", tool.name));
+}
+
+// A case in which nothing would ever happen.
+void check_motion(const RunConfig& config, std::vector<std::string>& found) {
+  const auto& particles = config.particles;
+  const auto& tools = config.tools;
+  const bool particle_moves =
+      config.impact.speed > 0.0 || std::any_of(particles.begin(), particles.end(), [](const ParticleConfig& particle) {
+        return particle.velocity.value_or(Vec3::Zero()).norm() > 0.0;
+      });
+  const bool tool_moves = std::any_of(tools.begin(), tools.end(), [](const ToolConfig& tool) {
+    return tool.velocity.norm() > 0.0 || tool.angular_speed != 0.0;
+  });
+  if (!particle_moves && !tool_moves && config.run.gravity.norm() == 0.0)
+    found.emplace_back("nothing moves: give impact.speed, a particle's velocity, a tool's motion or run.gravity");
+}
+
 void check_names(const RunConfig& config, std::vector<std::string>& found) {
   std::set<std::string> tools, particles;
   if (has_wall(config)) tools.insert("wall");
@@ -181,6 +208,8 @@ std::vector<std::string> contradictions(const RunConfig& config) {
   }
   for (const ToolConfig& tool : config.tools) check_tool(tool, found);
   check_names(config, found);
+  check_positions(config, found);
+  check_motion(config, found);
   return found;
 }
 

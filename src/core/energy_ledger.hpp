@@ -29,7 +29,7 @@ std::string_view name(EnergyTerm term);
 struct EnergyLedger {
   std::array<double, num_energy_terms> value{};
   double initial = 0.0;            ///< total at the start [J]
-  double reference = 0.0;          ///< what errors are measured against: the incident kinetic energy [J]
+  double reference = 0.0;          ///< what errors are measured against: incident kinetic energy and tools' work [J]
   double max_closure_error = 0.0;  ///< largest |total - initial| / reference so far
 
   double& operator[](EnergyTerm term) { return value[static_cast<std::size_t>(term)]; }

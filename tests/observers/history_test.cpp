@@ -58,7 +58,7 @@ TEST_F(HistoryTest, ResumedFileIsTheOneOfARunWithoutABreak) {
   }
   std::filesystem::resize_file(folder / "parts.csv", std::filesystem::file_size(folder / "parts.csv") - 20);
   History second(folder / "parts.csv", 24, 24);
-  second.resume(s.clock.step);
+  second.resume(s.clock.step, s.tools.size());
   advance_and_look(s, second, 120);
   const auto a = read_csv(folder / "whole.csv");
   const auto b = read_csv(folder / "parts.csv");
@@ -69,7 +69,7 @@ TEST_F(HistoryTest, ResumedFileIsTheOneOfARunWithoutABreak) {
 TEST_F(HistoryTest, ResumeWithoutAFileStartsOne) {
   Simulation s = breaking_box();
   History history(folder / "history.csv", 24, 24);
-  history.resume(0);
+  history.resume(0, s.tools.size());
   history.look(s);
   EXPECT_EQ(read_csv(folder / "history.csv").column("step").size(), 1u);
 }
