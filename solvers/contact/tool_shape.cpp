@@ -23,6 +23,11 @@ ShapeBox cylinder_box(double radius, double low, double high) {
   return {Vec3(-radius, -radius, low), Vec3(radius, radius, high)};
 }
 
+std::vector<Vec3> cylinder_points(double radius, double low, double high) {
+  return {Vec3(0, 0, 0.5 * (low + high)), Vec3(0, 0, low), Vec3(0, 0, high), Vec3(radius, 0, low),
+          Vec3(radius, 0, high)};
+}
+
 }  // namespace
 
 SurfaceDistance surface_distance(const HalfSpace&, const Vec3& point) { return {point.z(), Vec3::UnitZ()}; }
@@ -39,6 +44,18 @@ SurfaceDistance surface_distance(const BallTool& shape, const Vec3& point) {
 
 SurfaceDistance surface_distance(const CylinderTool& shape, const Vec3& point) {
   return cylinder_distance(shape.radius, 0.5 * shape.length, point);
+}
+
+std::vector<Vec3> points_inside(const HalfSpace&) { return {}; }
+
+std::vector<Vec3> points_inside(const DiscPlaten& shape) {
+  return cylinder_points(shape.radius, -shape.thickness, 0.0);
+}
+
+std::vector<Vec3> points_inside(const BallTool&) { return {Vec3::Zero()}; }
+
+std::vector<Vec3> points_inside(const CylinderTool& shape) {
+  return cylinder_points(shape.radius, -0.5 * shape.length, 0.5 * shape.length);
 }
 
 ShapeBox bounding_box(const HalfSpace&) {

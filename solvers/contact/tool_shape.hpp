@@ -50,4 +50,10 @@ ShapeBox bounding_box(const DiscPlaten& shape);
 ShapeBox bounding_box(const BallTool& shape);
 ShapeBox bounding_box(const CylinderTool& shape);
 
+/// A few points of the shape's solid, its corners and middle: a particle that holds the whole tool has them inside.
+std::vector<Vec3> points_inside(const HalfSpace& shape);
+std::vector<Vec3> points_inside(const DiscPlaten& shape);
+std::vector<Vec3> points_inside(const BallTool& shape);
+std::vector<Vec3> points_inside(const CylinderTool& shape);
+
 }  // namespace knap

@@ -25,6 +25,7 @@ struct SimulationOptions {
   double relaxation_time = 0.0;  ///< of that branch [s]
   std::optional<FractureOptions> fracture{};
   std::vector<ToolOptions> tools{};
+  Vec3 gravity = Vec3::Zero();   ///< [m/s2]
   Vec3 velocity = Vec3::Zero();  ///< of the whole particle at the start [m/s]
   Vec3 spin = Vec3::Zero();      ///< about its mass centre [rad/s]
   double step_safety = 0.5;      ///< time step over the nodal stability bound

@@ -58,6 +58,9 @@ constexpr auto fields(const BranchState*) {
                     Field{"pending", &BranchState::pending}, Field{"dissipated", &BranchState::dissipated}};
 }
 constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
+constexpr auto fields(const GravityImpulse*) {
+  return std::tuple{Field{"linear", &GravityImpulse::linear}, Field{"angular", &GravityImpulse::angular}};
+}
 constexpr auto fields(const ToolState*) {
   return std::tuple{Field{"position", &ToolState::position},
                     Field{"orientation", &ToolState::orientation},
@@ -239,6 +242,7 @@ void visit_persistent(Visitor visit, Run& s) {
   visit_single(visit, "clock", s.clock);
   visit_single(visit, "totals", s.totals);
   visit_tools(visit, s.tools);
+  visit_single(visit, "gravity", s.totals.gravity);
   visit_single(visit, "ledger", s.ledger);
   visit_single(visit, "last_good_ledger", s.last_good_ledger);
 }
@@ -252,10 +256,26 @@ std::string case_hash(const Simulation& s) {
   hash.add(s.reference.fracture_energy);
   const SimulationOptions& o = s.options;
   const CohesiveLaw law = o.fracture ? o.fracture->law : CohesiveLaw{};
-  hash.add(std::vector{o.young_modulus, o.poisson_ratio, o.density, o.viscous_ratio, o.relaxation_time, o.step_safety,
-                       law.beta, law.kappa, law.internal_friction, law.sliding_friction,
-                       static_cast<double>(law.softening_friction), o.velocity.x(), o.velocity.y(), o.velocity.z(),
-                       o.spin.x(), o.spin.y(), o.spin.z()});
+  hash.add(std::vector{o.young_modulus,
+                       o.poisson_ratio,
+                       o.density,
+                       o.viscous_ratio,
+                       o.relaxation_time,
+                       o.step_safety,
+                       law.beta,
+                       law.kappa,
+                       law.internal_friction,
+                       law.sliding_friction,
+                       static_cast<double>(law.softening_friction),
+                       o.velocity.x(),
+                       o.velocity.y(),
+                       o.velocity.z(),
+                       o.spin.x(),
+                       o.spin.y(),
+                       o.spin.z(),
+                       o.gravity.x(),
+                       o.gravity.y(),
+                       o.gravity.z()});
   for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
   hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
   return hash.hex();

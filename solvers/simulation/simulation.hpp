@@ -8,6 +8,7 @@
 #include "core/nodal_state.hpp"
 #include "core/rigid_bodies.hpp"
 #include "fem/elastic_force.hpp"
+#include "loading/body_force.hpp"
 #include "simulation/options.hpp"
 #include "simulation/phase_times.hpp"
 #include "time/central_difference.hpp"
@@ -34,6 +35,7 @@ struct ReferenceState {
   double critical_step = 0.0;            ///< bound of the unbroken mesh [s]
   Momentum start;                        ///< momenta at the start
   double incident_energy = 0.0;          ///< kinetic at the start [J]
+  double start_potential = 0.0;          ///< of gravity [J]
 };
 
 /// Sums over the run that no state variable holds.
@@ -42,6 +44,7 @@ struct RunTotals {
   double added_mass = 0.0;              ///< by mass scaling [kg]
   Vec3 added_linear = Vec3::Zero();     ///< momentum of that mass [kg m/s]
   Vec3 added_angular = Vec3::Zero();    ///< about the origin [kg m2/s]
+  GravityImpulse gravity;               ///< on the particle
   std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
   std::int64_t inserted_facets = 0;
   double noted_damage = 0.0;  ///< energy that the cracks had spent when damage was last noticed, see run.cpp [J]

@@ -17,7 +17,9 @@ enum class EnergyTerm {
   ToolImpact,          ///< nodes landing on a wall (a discretisation loss)
   Viscous,             ///< loss of the viscoelastic branch
   MassScaling,         ///< kinetic energy of mass added at splits, counted negative
-  ToolWork,            ///< done by moving tools on the particle, counted negative
+  ToolWork,            ///< done by tools of prescribed motion on the particle, counted negative
+  ToolKinetic,         ///< of tools with a mass of their own
+  Gravity,             ///< potential energy of particle and such tools, 0 at the start
   Count
 };
 

@@ -85,8 +85,9 @@ Rebound rebound(const Simulation& s) {
 MomentumErrors momentum_errors(const Simulation& s, double radius) {
   const Momentum& start = s.reference.start;
   const Momentum now = momentum(s.nodes);
-  Vec3 linear = now.linear - start.linear - s.totals.added_linear;
-  Vec3 angular = now.angular - start.angular - s.totals.added_angular - pending_angular_momentum(s.cracks);
+  Vec3 linear = now.linear - start.linear - s.totals.added_linear - s.totals.gravity.linear;
+  Vec3 angular = now.angular - start.angular - s.totals.added_angular - s.totals.gravity.angular -
+                 pending_angular_momentum(s.cracks);
   for (const Tool& tool : s.tools) {
     linear -= tool.state.impulse;
     angular -= tool.state.angular_impulse;
