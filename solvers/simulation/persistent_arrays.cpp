@@ -61,6 +61,9 @@ constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt},
 constexpr auto fields(const GravityImpulse*) {
   return std::tuple{Field{"linear", &GravityImpulse::linear}, Field{"angular", &GravityImpulse::angular}};
 }
+constexpr auto fields(const ForceWatch*) {
+  return std::tuple{Field{"impulse", &ForceWatch::impulse}, Field{"largest", &ForceWatch::largest}};
+}
 constexpr auto fields(const ToolState*) {
   return std::tuple{Field{"position", &ToolState::position},
                     Field{"orientation", &ToolState::orientation},
@@ -243,6 +246,7 @@ void visit_persistent(Visitor visit, Run& s) {
   visit_single(visit, "totals", s.totals);
   visit_tools(visit, s.tools);
   visit_single(visit, "gravity", s.totals.gravity);
+  visit_single(visit, "force_watch", s.totals.force_watch);
   visit_single(visit, "ledger", s.ledger);
   visit_single(visit, "last_good_ledger", s.last_good_ledger);
 }

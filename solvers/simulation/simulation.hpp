@@ -38,6 +38,12 @@ struct ReferenceState {
   double start_potential = 0.0;          ///< of gravity [J]
 };
 
+/// Of the tool whose falling force may end the run, see run.hpp.
+struct ForceWatch {
+  Vec3 impulse = Vec3::Zero();  ///< at the end of the last window [N s]
+  double largest = 0.0;         ///< mean force of a window [N]
+};
+
 /// Sums over the run that no state variable holds.
 struct RunTotals {
   double mass_scaling_energy = 0.0;     ///< [J]
@@ -47,6 +53,7 @@ struct RunTotals {
   GravityImpulse gravity;               ///< on the particle
   std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
   std::int64_t inserted_facets = 0;
+  ForceWatch force_watch{};
   double noted_damage = 0.0;  ///< energy that the cracks had spent when damage was last noticed, see run.cpp [J]
   double smallest_volume_ratio = 1.0;  ///< J of a tet at any energy balance [-], <= 0 = one was inverted
 };

@@ -27,7 +27,12 @@ ToolShape shape_of(const ToolConfig& tool) {
   return HalfSpace{};
 }
 
-ToolMotion motion_of(const ToolConfig& tool) {
+// Along which a free tool moves.
+Vec3 way_of(const ToolConfig& tool, const Vec3& gravity) {
+  return tool.velocity.norm() > 0.0 ? tool.velocity : gravity;
+}
+
+ToolMotion motion_of(const ToolConfig& tool, const Vec3& gravity) {
   switch (tool.motion) {
     case MotionKind::Velocity:
       return ConstantVelocity{tool.velocity};
@@ -35,8 +40,9 @@ ToolMotion motion_of(const ToolConfig& tool) {
       return Ramp{tool.velocity, tool.ramp_time};
     case MotionKind::Rotation:
       return Rotation{tool.rotation_centre, tool.rotation_axis, tool.angular_speed};
-    case MotionKind::Rest:
     case MotionKind::Free:
+      return Guided{way_of(tool, gravity), tool.velocity.norm(), tool.mass};
+    case MotionKind::Rest:
       break;
   }
   return AtRest{};
@@ -50,9 +56,10 @@ Eigen::Quaterniond orientation_of(const ToolConfig& tool) {
 }
 
 // Where a tool comes from, pointing to the particle.
-Vec3 direction_of_approach(const ToolConfig& tool) {
-  const bool moves = tool.velocity.norm() > 0.0 && tool.motion != MotionKind::Rest;
-  if (moves && !has_face(tool)) return tool.velocity.normalized();
+Vec3 direction_of_approach(const ToolConfig& tool, const Vec3& gravity) {
+  const Vec3 way = tool.motion == MotionKind::Free ? way_of(tool, gravity) : tool.velocity;
+  const bool moves = way.norm() > 0.0 && tool.motion != MotionKind::Rest;
+  if (moves && !has_face(tool)) return way.normalized();
   return has_face(tool) || tool.type == ToolKind::Stl ? Vec3(tool.normal.normalized()) : Vec3(Vec3::UnitZ());
 }
 
@@ -95,8 +102,9 @@ std::vector<ToolOptions> tool_options(const RunConfig& config, std::span<const T
                         .position = tool.position.value_or(Vec3::Zero()),
                         .orientation = orientation_of(tool),
                         .friction = tool.friction,
-                        .motion = motion_of(tool)};
-    if (!tool.position) options.position = place_in_touch(options, direction_of_approach(tool), particles, gap);
+                        .motion = motion_of(tool, config.run.gravity)};
+    if (!tool.position)
+      options.position = place_in_touch(options, direction_of_approach(tool, config.run.gravity), particles, gap);
     tools.push_back(std::move(options));
   }
   return tools;

@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "io/csv_table.hpp"
 #include "io/plot.hpp"
 
@@ -34,6 +37,22 @@ std::vector<double> along(const CsvColumns& table, const std::string& stem, cons
 std::optional<std::size_t> pressing_tool(const Simulation& s) {
   for (std::size_t k = 0; k < s.options.tools.size(); ++k)
     if (driven_velocity(s.options.tools[k].motion)) return k;
+  return std::nullopt;
+}
+
+std::optional<ForceDrop> force_drop(const RunConfig& config, const SanityCard& card, const Simulation& s) {
+  constexpr double least_share = 0.1;  // of the force at which a particle of the given strength breaks
+  for (std::size_t k = 0; k < config.tools.size(); ++k) {
+    const double share = config.tools[k].stop_at_force_drop;
+    if (share == 0.0 || !card.fracture) continue;
+    const double diameter = card.input.diameter;
+    const double expected = card.input.fracture->strength * diameter * diameter / 0.9;  // Hiramatsu & Oka 1966
+    return ForceDrop{
+        .tool = k + (has_wall(config) ? 1 : 0),
+        .share = share,
+        .least = least_share * expected,
+        .window = std::max<std::int64_t>(1, std::llround(crossings_to_smooth * card.crossing_time / s.clock.dt))};
+  }
   return std::nullopt;
 }
 

@@ -71,7 +71,9 @@ PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& lo
   log.info(format_sanity_card(card));
   check_card(card, config, log);
   check_times(card, config, s);
-  return {{name, card, quality}, run_limits(card), std::move(s)};
+  RunLimits limits = run_limits(card);
+  limits.force_drop = force_drop(config, card, s);
+  return {{name, card, quality}, limits, std::move(s)};
 }
 
 void draw(const RunFolder& folder, const Simulation& s, const RunOutcome& outcome, RunLog& log) {
@@ -115,6 +117,7 @@ ExitCode exit_code(StopReason reason) {
   switch (reason) {
     case StopReason::AtRest:
     case StopReason::EndTime:
+    case StopReason::ForceDropped:
       return ExitCode::Ok;
     case StopReason::Interrupted:
       return ExitCode::Interrupted;

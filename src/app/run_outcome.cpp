@@ -60,6 +60,7 @@ std::string_view status(StopReason reason) {
   switch (reason) {
     case StopReason::AtRest:
     case StopReason::EndTime:
+    case StopReason::ForceDropped:
       return "finished";
     case StopReason::Interrupted:
       return "interrupted";

@@ -41,6 +41,7 @@ SimulationOptions simulation_options(const RunConfig& config) {
                             .viscous_ratio = particle.material.viscous_ratio,
                             .relaxation_time = particle.material.relaxation_time,
                             .fracture = std::nullopt,
+                            .gravity = config.run.gravity,
                             .velocity = start_velocity(config, particle),
                             .spin = particle.spin.value_or(config.impact.spin),
                             .step_safety = config.run.step_safety,

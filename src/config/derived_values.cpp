@@ -95,7 +95,7 @@ void check_fracture(const FractureConfig& fracture, std::vector<std::string>& fo
                     fracture.toughness, energy));
 }
 
-void check_tool(const ToolConfig& tool, std::vector<std::string>& found) {
+void check_tool(const RunConfig& config, const ToolConfig& tool, std::vector<std::string>& found) {
   const auto refuse_zero = [&](const char* key, const Vec3& direction) {
     if (direction.norm() < 1e-12)
       found.push_back(fmt::format("tool.{} = [0, 0, 0]: must point somewhere (tool {})", key, tool.name));
@@ -106,6 +106,10 @@ void check_tool(const ToolConfig& tool, std::vector<std::string>& found) {
   const bool is_driven = tool.motion == MotionKind::Velocity || tool.motion == MotionKind::Ramp;
   if (is_driven && tool.velocity.norm() == 0.0)
     found.push_back(fmt::format("tool.velocity = [0, 0, 0]: is rest, write motion = \"rest\" (tool {})", tool.name));
+  const bool has_no_way = tool.velocity.norm() == 0.0 && config.run.gravity.norm() == 0.0;
+  if (tool.motion == MotionKind::Free && has_no_way)
+    found.push_back(
+        fmt::format("tool.velocity is missing: a free tool moves along it or along run.gravity (tool {})", tool.name));
   if (tool.motion == MotionKind::Free && tool.type == ToolKind::Plane)
     found.push_back(fmt::format("tool.motion = \"free\": a plane has no mass; take a platen (tool {})", tool.name));
 }
@@ -206,7 +210,7 @@ std::vector<std::string> contradictions(const RunConfig& config) {
     check_fracture(particle.fracture, own);
     for (const std::string& text : own) found.push_back(prefix(config, particle) + text);
   }
-  for (const ToolConfig& tool : config.tools) check_tool(tool, found);
+  for (const ToolConfig& tool : config.tools) check_tool(config, tool, found);
   check_names(config, found);
   check_positions(config, found);
   check_motion(config, found);

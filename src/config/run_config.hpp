@@ -108,7 +108,8 @@ struct ToolConfig {
   double angular_speed = 0.0;           ///< [rad/s]
   Vec3 rotation_axis = Vec3::UnitZ();   ///< any length
   Vec3 rotation_centre = Vec3::Zero();  ///< a point on the axis [m]
-  double mass = 0.0;                    ///< of a free tool [kg]
+  double stop_at_force_drop = 0.0;  ///< the run ends when the tool's force is below this part of its largest; 0 = never
+  double mass = 0.0;                ///< of a free tool [kg]
   bool operator==(const ToolConfig&) const = default;
 };
 
