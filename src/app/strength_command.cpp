@@ -11,6 +11,7 @@
 #include "app/commands.hpp"
 #include "app/run_folder.hpp"
 #include "config/load_config.hpp"
+#include "io/csv_line.hpp"
 #include "io/csv_table.hpp"
 #include "io/file_output.hpp"
 #include "io/plot.hpp"

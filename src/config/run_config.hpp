@@ -113,6 +113,16 @@ struct ToolConfig {
   bool operator==(const ToolConfig&) const = default;
 };
 
+/// Fragments that have come loose.
+struct ContactConfig {
+  double restitution = 0.0;             ///< between fragments carried as rigid bodies [-]
+  bool rigid_fragments = false;         ///< carry fragments that have stopped breaking as rigid bodies
+  double freeze_after_crossings = 0.0;  ///< without damage, in times that a wave takes to cross the fragment
+  double wake_at_speed_share = 0.0;     ///< of the speed at which it would break: a faster approach wakes it
+  double wake_at_load_share = 0.0;      ///< of its strength: a larger 0.9 F/d^2 wakes it
+  bool operator==(const ContactConfig&) const = default;
+};
+
 struct TimeConfig {
   std::optional<double> end_time;  ///< [s]; absent = stop automatically
   double step_safety = 0.5;        ///< time step over the nodal stability bound [-]
@@ -134,6 +144,7 @@ struct OutputConfig {
 struct RunConfig {
   std::vector<ParticleConfig> particles = std::vector<ParticleConfig>(1);  ///< at least one
   ImpactConfig impact;
+  ContactConfig contact;
   std::vector<ToolConfig> tools;
   TimeConfig run;
   OutputConfig output;
