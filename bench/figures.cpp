@@ -42,7 +42,7 @@ SimulationOptions alumina_like(double strength, const CohesiveLaw& law = {}) {
   particle.velocity = {0.0, 0.0, -30.0};
   particle.fracture = FractureOptions{.law = law, .strength = strength, .fracture_energy = 20.0};
   SimulationOptions options{.particles = {particle}};
-  options.wall = Plane{.friction = 0.3};
+  options.tools = {wall(0.3)};
   return options;
 }
 

@@ -7,6 +7,7 @@
 
 #include "cohesive/insertion.hpp"
 #include "cohesive/strength_field.hpp"
+#include "contact/initial_overlap.hpp"
 #include "core/errors.hpp"
 #include "fem/lumped_mass.hpp"
 #include "fem/stable_time_step.hpp"
@@ -141,11 +142,22 @@ ReferenceState make_reference(const SimulationOptions& options, std::span<const 
 }
 
 // What errors of the energy balance are measured against. Particles that meet in flight know nothing of a common
-// velocity; a wall does.
+// velocity; a tool does.
 double incident_energy(const SimulationOptions& options, const NodalState& nodes, const Momentum& start) {
   const double total = kinetic_energy(nodes);
-  if (options.particles.size() == 1 || options.wall) return total;
+  if (options.particles.size() == 1 || !options.tools.empty()) return total;
   return total - 0.5 * start.mass * start.velocity().squaredNorm();
+}
+
+void refuse_overlap(const Simulation& s) {
+  if (s.options.particles.size() == 1) return;
+  const auto tets = overlapping_tets(s.topology.tet_nodes, s.nodes.x, s.reference.particle_of_tet);
+  if (!tets) return;
+  const auto particle = [&](std::size_t i) { return s.reference.particle_of_tet[at((*tets)[i])] + 1; };
+  const Vec3 place = xyz(s.nodes.x[at(s.topology.tet_nodes[at((*tets)[0])][0])]);
+  throw InputError(
+      fmt::format("particles {} and {} overlap at the start, near ({:.4g}, {:.4g}, {:.4g}) m: move them apart",
+                  particle(0), particle(1), place.x(), place.y(), place.z()));
 }
 
 }  // namespace
@@ -161,6 +173,7 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   s.topology = make_topology(all);
   s.reference = make_reference(options, meshes, all, s.topology, materials);
   s.nodes = nodes_at_start(options, s.reference, s.topology, meshes);
+  refuse_overlap(s);
   s.reference.critical_step = critical_time_step(s.topology, s.reference.corner_stiffness, s.nodes.mass);
   s.clock.dt = options.step_safety * s.reference.critical_step;
   s.elastic = make_elastic_force(s.topology, all.vertices, materials, s.reference.particle_of_tet);
@@ -168,6 +181,8 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   s.cracks = make_crack_state(s.topology, first_vertices(meshes));
   s.contact.fragment_of_tet.assign(all.tets.size(), 0);
   s.contact.skin = skin_over_edge * s.reference.mean_edge;
+
+  s.tools = make_tools(options.tools, s.clock.dt);
 
   s.reference.start = momentum(s.nodes);
   s.reference.incident_energy = incident_energy(options, s.nodes, s.reference.start);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "cohesive/linear_softening.hpp"
-#include "contact/plane.hpp"
+#include "loading/tool_options.hpp"
 
 namespace knap {
 
@@ -34,7 +34,7 @@ struct ParticleOptions {
 /// Everything a simulation is made from, beside the meshes; SI.
 struct SimulationOptions {
   std::vector<ParticleOptions> particles = std::vector<ParticleOptions>(1);  ///< one for each mesh
-  std::optional<Plane> wall{};
+  std::vector<ToolOptions> tools{};
   double step_safety = 0.5;    ///< time step over the nodal stability bound
   int insertion_interval = 4;  ///< steps between two checks of the insertion criterion
   int label_interval = 48;     ///< steps between two looks for new fragments

@@ -58,18 +58,28 @@ constexpr auto fields(const BranchState*) {
                     Field{"pending", &BranchState::pending}, Field{"dissipated", &BranchState::dissipated}};
 }
 constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
-constexpr auto fields(const ToolAction*) {
-  return std::tuple{Field{"impulse", &ToolAction::impulse}, Field{"moment", &ToolAction::moment},
-                    Field{"friction_loss", &ToolAction::friction_loss}, Field{"impact_loss", &ToolAction::impact_loss}};
+constexpr auto fields(const ToolState*) {
+  return std::tuple{Field{"position", &ToolState::position},
+                    Field{"orientation", &ToolState::orientation},
+                    Field{"velocity", &ToolState::velocity},
+                    Field{"spin", &ToolState::spin},
+                    Field{"velocity_before", &ToolState::velocity_before},
+                    Field{"spin_before", &ToolState::spin_before},
+                    Field{"impulse", &ToolState::impulse},
+                    Field{"angular_impulse", &ToolState::angular_impulse},
+                    Field{"moment", &ToolState::moment},
+                    Field{"work", &ToolState::work},
+                    Field{"friction_loss", &ToolState::friction_loss},
+                    Field{"impact_loss", &ToolState::impact_loss},
+                    Field{"max_force", &ToolState::max_force},
+                    Field{"first_step", &ToolState::first_step},
+                    Field{"last_step", &ToolState::last_step}};
 }
 constexpr auto fields(const RunTotals*) {
   return std::tuple{Field{"mass_scaling_energy", &RunTotals::mass_scaling_energy},
                     Field{"added_mass", &RunTotals::added_mass},
                     Field{"added_linear", &RunTotals::added_linear},
                     Field{"added_angular", &RunTotals::added_angular},
-                    Field{"max_wall_force", &RunTotals::max_wall_force},
-                    Field{"last_wall_step", &RunTotals::last_wall_step},
-                    Field{"first_wall_step", &RunTotals::first_wall_step},
                     Field{"last_contact_step", &RunTotals::last_contact_step},
                     Field{"smallest_volume_ratio", &RunTotals::smallest_volume_ratio},
                     Field{"inserted_facets", &RunTotals::inserted_facets},
@@ -96,6 +106,12 @@ template <int n>
 struct Layout<Eigen::Matrix<double, n, 1>> {
   using Scalar = double;
   static constexpr std::size_t count = n;
+};
+
+template <>
+struct Layout<Eigen::Quaterniond> {
+  using Scalar = double;
+  static constexpr std::size_t count = 4;
 };
 
 template <class Member>
@@ -189,6 +205,16 @@ void visit_single(Visitor& visit, const std::string& name, Struct& value) {
   if constexpr (!std::is_const_v<Struct>) value = one.at(0);
 }
 
+// The number of tools is the case's.
+template <class Visitor, class Tools>
+void visit_tools(Visitor& visit, Tools& tools) {
+  std::vector<ToolState> states;
+  for (const Tool& tool : tools) states.push_back(tool.state);
+  visit.structs("tools", states);
+  if constexpr (!std::is_const_v<Tools>)
+    for (std::size_t k = 0; k < tools.size(); ++k) tools[k].state = states.at(k);
+}
+
 /// The list.
 template <class Visitor, class Run>
 void visit_persistent(Visitor visit, Run& s) {
@@ -212,7 +238,7 @@ void visit_persistent(Visitor visit, Run& s) {
   visit_single(visit, "branch", s.elastic.branch);
   visit_single(visit, "clock", s.clock);
   visit_single(visit, "totals", s.totals);
-  visit_single(visit, "wall", s.totals.wall);
+  visit_tools(visit, s.tools);
   visit_single(visit, "ledger", s.ledger);
   visit_single(visit, "last_good_ledger", s.last_good_ledger);
 }
@@ -235,7 +261,8 @@ std::string case_hash(const Simulation& s) {
                          particle.spin.z()});
   }
   hash.add(s.reference.particle_of_tet);
-  hash.add(std::vector{o.step_safety, o.wall ? o.wall->friction : -1.0});
+  hash.add(std::vector{o.step_safety});
+  for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
   hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
   return hash.hex();
 }

@@ -27,23 +27,30 @@ FractureOptions fracture_options(const FractureConfig& fracture) {
           .weibull_seed = static_cast<std::uint64_t>(fracture.weibull_seed)};
 }
 
+ParticleOptions particle_options(const ParticleConfig& particle, const ImpactConfig& impact) {
+  ParticleOptions options{.young_modulus = particle.material.young_modulus,
+                          .poisson_ratio = particle.material.poisson_ratio,
+                          .density = particle.material.density,
+                          .viscous_ratio = particle.material.viscous_ratio,
+                          .relaxation_time = particle.material.relaxation_time,
+                          .fracture = std::nullopt,
+                          .friction = particle.fracture.sliding_friction,
+                          .velocity = particle.velocity.value_or(impact_velocity(impact)),
+                          .spin = particle.spin.value_or(impact.spin)};
+  if (particle.fracture.insertion != Insertion::None) options.fracture = fracture_options(particle.fracture);
+  return options;
+}
+
 }  // namespace
 
 SimulationOptions simulation_options(const RunConfig& config) {
-  ParticleOptions particle{.young_modulus = config.material.young_modulus,
-                           .poisson_ratio = config.material.poisson_ratio,
-                           .density = config.material.density,
-                           .viscous_ratio = config.material.viscous_ratio,
-                           .relaxation_time = config.material.relaxation_time,
-                           .fracture = std::nullopt,
-                           .friction = config.fracture.sliding_friction,
-                           .velocity = impact_velocity(config.impact),
-                           .spin = config.impact.spin};
-  if (config.fracture.insertion != Insertion::None) particle.fracture = fracture_options(config.fracture);
-  return {.particles = {particle},
-          .wall = Plane{.friction = config.impact.wall_friction},
-          .step_safety = config.run.step_safety,
-          .insertion_interval = config.run.insertion_interval};
+  SimulationOptions options{.particles = {},
+                            .tools = {wall(config.impact.wall_friction)},
+                            .step_safety = config.run.step_safety,
+                            .insertion_interval = config.run.insertion_interval};
+  for (const ParticleConfig& particle : config.particles)
+    options.particles.push_back(particle_options(particle, config.impact));
+  return options;
 }
 
 }  // namespace knap

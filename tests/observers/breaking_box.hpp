@@ -18,7 +18,7 @@ inline Simulation breaking_box(double viscous_ratio = 0.0) {
   particle.viscous_ratio = viscous_ratio;
   particle.relaxation_time = 2e-6;
   SimulationOptions options{.particles = {particle}};
-  options.wall = Plane{.friction = 0.3};
+  options.tools = {wall(0.3)};
   return make_simulation(options, mesh);
 }
 
