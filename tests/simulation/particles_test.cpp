@@ -33,14 +33,13 @@ Vec3 momentum_of(const Simulation& s, Index particle) {
 
 /// What Hertz's law predicts of two spheres or of one and a wall.
 struct Impact {
-  double time = 0.0;   ///< of contact [s]
+  double time = 0.0;   ///< in which 1 to 99 % of the momentum change [s]
   double force = 0.0;  ///< largest [N]
   double restitution = 0.0;
 };
 
-// From the momentum of the upper particle over time: its slope is the force. Contact lasts while it changes by more
-// than a thousandth of the whole a window; the window is short against the contact and long against vibrations of the
-// mesh.
+// From the momentum of the upper particle over time: its slope is the force, over a window that is short against the
+// contact and long against vibrations of the mesh.
 Impact measured(const std::vector<double>& momentum, double dt, std::size_t window) {
   Impact impact;
   const double change = momentum.back() - momentum.front();
@@ -48,8 +47,8 @@ Impact measured(const std::vector<double>& momentum, double dt, std::size_t wind
   for (std::size_t i = 0; i + window < momentum.size(); ++i) {
     const double force = (momentum[i + window] - momentum[i]) / (static_cast<double>(window) * dt);
     impact.force = std::max(impact.force, force);
-    if (momentum[i] - momentum.front() < 1e-3 * change) first = i;
-    if (momentum[i] - momentum.front() < 0.999 * change) last = i;
+    if (momentum[i] - momentum.front() < 0.01 * change) first = i;
+    if (momentum[i] - momentum.front() < 0.99 * change) last = i;
   }
   impact.time = static_cast<double>(last - first) * dt;
   impact.restitution = momentum.back() / -momentum.front();
@@ -67,7 +66,7 @@ Impact run_impact(Simulation& s, Index particle, double end_time, double window)
 
 // Spheres of the granule: above z = 0, and with a second one below it, turned so that no facets match.
 Granule sphere(double speed) {
-  Granule granule{.diameter = 2e-3, .element_size = 0.2e-3, .contact_element_size = 0.05e-3, .contact_extent = 0.4e-3};
+  Granule granule{.diameter = 2e-3, .element_size = 0.25e-3, .contact_element_size = 0.06e-3, .contact_extent = 0.3e-3};
   granule.particle.friction = 0.0;
   granule.particle.velocity = {0.0, 0.0, -speed};
   granule.options.step_safety = 0.8;
@@ -94,24 +93,30 @@ TEST(Particles, TwoEqualSpheresAreOneOnAFrictionlessWall) {
   Simulation one = make_granule(granule);
   const double end = 6e-6, window = 0.15e-6;
   const Impact expected = run_impact(one, 0, end, window), found = run_impact(two, 0, end, window);
+  std::printf("force %g time %g e %g %g tets %d\n", found.force / expected.force, found.time / expected.time,
+              found.restitution, expected.restitution, two.topology.num_tets());
   EXPECT_NEAR(found.force / expected.force, 1.0, 0.02);
   EXPECT_NEAR(found.time / expected.time, 1.0, 0.02);
   EXPECT_NEAR(found.restitution, expected.restitution, 0.01);
   EXPECT_LT(two.ledger.max_closure_error, 1e-4);
 }
 
-// Chung & Ooi 2011, benchmark 1: glass spheres of 20 mm at +-10 m/s, their force and time of contact.
+// Chung & Ooi 2011, benchmark 1: glass spheres of 20 mm at +-10 m/s. Largest force of their curve, and the time in
+// which 1 to 99 % of its integral pass. The curve is Hertz's; of spheres this fast the contact is 1.5 to 3 % shorter
+// and stronger than that, see hertz_test.cpp.
 TEST(Particles, ForceOfTwoGlassSpheresIsTheBenchmarks) {
-  Granule granule{.diameter = 20e-3, .element_size = 2e-3, .contact_element_size = 0.4e-3, .contact_extent = 4e-3};
+  Granule granule{.diameter = 20e-3, .element_size = 2.5e-3, .contact_element_size = 0.3e-3, .contact_extent = 2e-3};
   granule.particle = {.young_modulus = 48e9, .poisson_ratio = 0.2, .density = 2800.0};
   granule.particle.friction = 0.0;
   granule.particle.velocity = {0.0, 0.0, -10.0};
   granule.options.step_safety = 0.8;
   Simulation s = two_spheres(granule);
-  const Impact found = run_impact(s, 0, 55e-6, 1e-6);
+  const Impact found = run_impact(s, 0, 46e-6, 1e-6);
   EXPECT_NEAR(found.force / 10.7039e3, 1.0, 0.05);
-  // 0.999 and 0.001 of the change of momentum are reached a few per cent of the time from its ends.
-  EXPECT_NEAR(found.time / 40.4785e-6, 0.95, 0.05);
+  EXPECT_NEAR(found.time / 33.041e-6, 1.0, 0.05);
+  RecordProperty("force", std::to_string(found.force / 10.7039e3));
+  std::printf("force %g time %g e %g tets %d\n", found.force / 10.7039e3, found.time / 33.041e-6, found.restitution,
+              s.topology.num_tets());
 }
 
 // Two bars meet end to end. Behind the waves both ends move with Z1 v/(Z1 + Z2), at the stress that the impedance
