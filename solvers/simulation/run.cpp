@@ -23,10 +23,16 @@ void notice_damage(Simulation& s) {
   s.cracks.last_damage_step = s.clock.step;
 }
 
+// Particles may meet each other, a single one only a tool.
+bool has_met_anything(const Simulation& s) {
+  if (s.options.particles.size() == 1) return has_touched_a_tool(s);
+  return s.totals.last_contact_step >= 0 || (!s.tools.empty() && has_touched_a_tool(s));
+}
+
 // Nothing inserted or noticeably damaged, no contact with a tool or between fragments, for the quiet time; and the
 // impact is over.
 bool is_at_rest(const Simulation& s, const RunLimits& limits) {
-  if (!has_touched_a_tool(s)) return false;
+  if (!has_met_anything(s)) return false;
   const std::int64_t quiet_steps = static_cast<std::int64_t>(limits.quiet_time / s.clock.dt);
   std::int64_t last = std::max(s.cracks.last_damage_step, s.totals.last_contact_step);
   for (const Tool& tool : s.tools) last = std::max(last, tool.state.last_step);

@@ -71,6 +71,17 @@ Json sanity(const SanityCard& card) {
   return json;
 }
 
+Json particles(const RunOutcome& outcome) {
+  Json list = Json::array();
+  for (const ParticleOutcome& particle : outcome.particles)
+    list.push_back({{"name", particle.name},
+                    {"mass", particle.mass},
+                    {"largest_fragment_velocity", vector(particle.velocity)},
+                    {"fragments", fragments(particle.measures)},
+                    {"breakage", breakage(particle.measures)}});
+  return list;
+}
+
 Json rebound(const RunOutcome& outcome) {
   const Fragment& largest = outcome.strict.fragments.front();
   return {{"restitution_normal", outcome.rebound.normal},
@@ -136,6 +147,7 @@ Json units() {
           {"momentum.linear_error", "of m v"},
           {"momentum.angular_error", "of the larger of m v R and the initial angular momentum"},
           {"fragments, breakage", "mass over the particle's mass; fragments by the strict label, breakage by damage"},
+          {"particles", "kg, m/s; fragments and breakage by the damage label, over each one's own mass and size"},
           {"rebound.restitution_*", "velocity of the mass centre over its incident part"},
           {"rebound.spin", "rad/s, of the largest fragment"},
           {"rebound.largest_fragment_velocity", "m/s"},
@@ -168,6 +180,7 @@ void write_report(const std::filesystem::path& path, const Simulation& s, const 
   report["fragments"]["label"] = "strict";
   report["fragments"]["by_damage_label"] = fragments(outcome.damage.measures);
   report["breakage"] = breakage(outcome.damage.measures);
+  if (outcome.particles.size() > 1) report["particles"] = particles(outcome);
   report["rebound"] = rebound(outcome);
   report["cracks"] = cracks(s, outcome.cracks);
   report["tools"] = tools(s);

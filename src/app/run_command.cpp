@@ -53,27 +53,40 @@ void check_times(const SanityCard& card, const RunConfig& config, const Simulati
   if (config.run.end_time && *config.run.end_time < dt)
     throw InputError(
         fmt::format("run.end_time = {} s: is shorter than one time step, {:.3g} s", *config.run.end_time, dt));
-  if (config.particles[0].material.viscous_ratio > 0.0 && config.particles[0].material.relaxation_time < dt)
-    throw InputError(fmt::format("material.relaxation_time = {} s: must be at least the time step, {:.3g} s",
-                                 config.particles[0].material.relaxation_time, dt));
+  for (const ParticleConfig& particle : config.particles)
+    if (particle.material.viscous_ratio > 0.0 && particle.material.relaxation_time < dt)
+      throw InputError(fmt::format("material.relaxation_time = {} s: must be at least the time step, {:.3g} s",
+                                 particle.material.relaxation_time, dt));
+}
+
+std::vector<TetMesh> meshes_of(std::vector<ParticleMesh>& particles) {
+  std::vector<TetMesh> meshes;
+  for (const ParticleMesh& particle : particles) meshes.push_back(particle.mesh);
+  return meshes;
 }
 
 PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& log) {
   log.info("Meshing ...");
-  const ParticleMesh particle = make_particle_mesh(config.particles[0]);
-  const MeshQuality& quality = particle.quality;
+  std::vector<ParticleMesh> particles;
+  for (const ParticleConfig& particle : config.particles) particles.push_back(make_particle_mesh(particle));
+  const std::vector<TetMesh> meshes = meshes_of(particles);
+  const TetMesh all = merged(meshes);
+  const MeshQuality quality = measure_quality(all);
   log.info(fmt::format("{} tets, {} nodes, shape quality {:.2f} mean, {:.2f} worst\n", quality.num_tets,
                        quality.num_vertices, quality.mean_shape, quality.min_shape));
   SimulationOptions options = simulation_options(config);
-  options.tools = tool_options(config, std::span(&particle.mesh, 1), initial_gap(particle.contact_element_size));
-  Simulation s = make_simulation(options, particle.mesh);
-  const SanityCard card = run_card(config, particle, s);
+  options.tools = tool_options(config, meshes, initial_gap(particles.front().contact_element_size));
+  Simulation s = make_simulation(options, meshes);
+  const SanityCard card = run_card(config, particles.front(), s);
   log.info(format_sanity_card(card));
   check_card(card, config, log);
   check_times(card, config, s);
+  RunIdentity identity{.case_name = name, .card = card, .quality = quality};
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    identity.particles.push_back({config.particles[i].name, particles[i].diameter});
   RunLimits limits = run_limits(card);
   limits.force_drop = force_drop(config, card, s);
-  return {{name, card, quality}, limits, std::move(s)};
+  return {std::move(identity), limits, std::move(s)};
 }
 
 void draw(const RunFolder& folder, const Simulation& s, const RunOutcome& outcome, RunLog& log) {

@@ -33,6 +33,20 @@ struct Compression {
   FractureForce fracture{};
 };
 
+/// A particle of the case, as it was.
+struct ParticleIdentity {
+  std::string name;
+  double diameter = 0.0;  ///< of the sphere of equal volume [m]
+};
+
+/// What became of one of several particles, by the damage label.
+struct ParticleOutcome {
+  std::string name;
+  double mass = 0.0;       ///< [kg]
+  Vec3 velocity = Vec3::Zero();  ///< of its largest piece [m/s]
+  BreakageMeasures measures{};
+};
+
 /// All that report, tables, picture and summary tell.
 struct RunOutcome {
   std::string case_name;
@@ -45,6 +59,7 @@ struct RunOutcome {
   Rebound rebound;
   MomentumErrors momentum;
   std::string state_hash;
+  std::vector<ParticleOutcome> particles{};  ///< in the order of the case
   std::optional<Compression> compression{};  ///< absent where no tool presses
 };
 
@@ -53,6 +68,7 @@ struct RunIdentity {
   std::string case_name;
   SanityCard card;
   MeshQuality quality;
+  std::vector<ParticleIdentity> particles{};  ///< none = one without a name
 };
 RunOutcome run_outcome(const Simulation& s, const RunIdentity& identity, const Session& session);
 

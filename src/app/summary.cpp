@@ -92,6 +92,12 @@ std::string summary(const Simulation& s, const RunOutcome& outcome, const std::s
       fmt::format("{}: {}, stopped at {:.4g} us ({})\n", outcome.case_name,
                   name(outcome.damage.measures.breakage_class), 1e6 * s.clock.time(), name(session.stop_reason));
   add_pieces(text, outcome);
+  if (outcome.particles.size() > 1)
+    for (const ParticleOutcome& particle : outcome.particles)
+      add_line(text, particle.name,
+               fmt::format("{}, largest piece {:.2f} % of it, chipping ratio {:.2f} %",
+                           name(particle.measures.breakage_class), 100.0 * particle.measures.largest_mass_fraction,
+                           100.0 * particle.measures.chipping_ratio));
   add_cracks(text, outcome.cracks);
   if (s.reference.incident_energy > 0.0) add_line(text, "rebound", rebound_line(outcome));
   for (const Tool& tool : s.tools)

@@ -17,9 +17,9 @@ constexpr double quiet_time = 10.0 * crossing_time;
 // Cracks at the contact, rebounds in one piece and vibrates.
 Simulation cracked_granule() {
   Granule granule{.element_size = 0.2e-3, .contact_element_size = 0.15e-3};
-  granule.options.fracture = zeolite_fracture();
+  granule.particle.fracture = zeolite_fracture();
   granule.options.tools = {wall(0.3)};
-  granule.options.velocity = {0.0, 0.0, -12.0};
+  granule.particle.velocity = {0.0, 0.0, -12.0};
   return make_granule(granule);
 }
 
