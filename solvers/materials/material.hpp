@@ -13,6 +13,7 @@ template <class Law>
 concept BulkLawModel = requires(const Law& law, const Mat3& F, double J) {
   { law.mu } -> std::convertible_to<double>;
   { law.volumetric_slope(J) } -> std::convertible_to<double>;
+  { law.volumetric_curvature(J) } -> std::convertible_to<double>;
   { law.small_strain() } -> std::same_as<Lame>;
   { energy_density(law, F) } -> std::convertible_to<double>;
   { first_piola(law, F) } -> std::convertible_to<Mat3>;

@@ -17,6 +17,8 @@ struct NeoHookean {
   Lame small_strain() const { return {lambda, mu}; }
   /// dU/dJ [Pa] of the volumetric part of W, which makes P = mu F + dU/dJ cof F. T: double or a vector of them.
   double volumetric_slope(double J) const { return (lambda + mu) * (J - 1.0) - mu; }
+  /// d2U/dJ2 [Pa].
+  double volumetric_curvature(double) const { return lambda + mu; }
 };
 
 /// The shear part of the Cauchy stress divides by max(|J|, this): bounded where an element collapses, and an inverted

@@ -4,11 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <tuple>
 
 #include "core/errors.hpp"
 #include "core/hash.hpp"
+#include "fem/sleeping_tets.hpp"
 
 namespace knap {
 namespace {
@@ -35,7 +37,8 @@ constexpr auto fields(const CrackFace*) {
                     Field{"couple", &CrackFace::couple},
                     Field{"carried_couple", &CrackFace::carried_couple},
                     Field{"area", &CrackFace::area},
-                    Field{"failed", &CrackFace::failed}};
+                    Field{"failed", &CrackFace::failed},
+                    Field{"sleeps", &CrackFace::sleeps}};
 }
 constexpr auto fields(const CrackLosses*) {
   return std::tuple{Field{"cohesive", &CrackLosses::cohesive}, Field{"closure", &CrackLosses::closure},
@@ -51,7 +54,7 @@ constexpr auto fields(const Contact*) {
                     Field{"normal", &Contact::normal}, Field{"impulse", &Contact::impulse}};
 }
 constexpr auto fields(const BranchState*) {
-  return std::tuple{Field{"decay", &BranchState::decay}, Field{"stored", &BranchState::stored},
+  return std::tuple{Field{"dt", &BranchState::dt}, Field{"stored", &BranchState::stored},
                     Field{"pending", &BranchState::pending}, Field{"dissipated", &BranchState::dissipated}};
 }
 constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
@@ -112,11 +115,6 @@ template <>
 struct Layout<Eigen::Quaterniond> {
   using Scalar = double;
   static constexpr std::size_t count = 4;
-};
-template <>
-struct Layout<BranchGroup> {
-  using Scalar = double;
-  static constexpr std::size_t count = sizeof(BranchGroup) / sizeof(double);
 };
 
 template <class Member>
@@ -240,7 +238,6 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.plain("contact.margin", s.contact.margin);
   visit.structs("contact.candidates", s.contact.candidates);
   visit.structs("contact.contacts", s.contact.contacts);
-  visit.plain("branch.groups", s.elastic.branch.groups);
   visit_single(visit, "branch", s.elastic.branch);
   visit_single(visit, "clock", s.clock);
   visit_single(visit, "totals", s.totals);
@@ -284,6 +281,18 @@ std::string case_hash(const Simulation& s) {
   return hash.hex();
 }
 
+void restore_bulk(Simulation& s, const Reader& reader) {
+  std::vector<Index> asleep, active, all_tets(at(s.topology.num_tets()));
+  std::iota(all_tets.begin(), all_tets.end(), 0);
+  reader.plain("bulk.sleeping_tets", asleep);
+  std::set_difference(all_tets.begin(), all_tets.end(), asleep.begin(), asleep.end(), std::back_inserter(active));
+  refresh_elastic_force(s.elastic, s.topology, all_tets);
+  set_active_tets(s.elastic, s.topology, s.reference.vertices, active);
+  std::vector<std::array<double, 6>> metrics;
+  reader.plain("branch.relaxed_metric", metrics);
+  set_relaxed_metrics(s.elastic, metrics);
+}
+
 }  // namespace
 
 Checkpoint make_checkpoint(const Simulation& s) {
@@ -293,6 +302,9 @@ Checkpoint make_checkpoint(const Simulation& s) {
                                    s.contact.dissipated,         static_cast<double>(s.contact.fragments),
                                    s.contact.frame_velocity.x(), s.contact.frame_velocity.y(),
                                    s.contact.frame_velocity.z()};
+  Writer writer{checkpoint};
+  writer.plain("bulk.sleeping_tets", sleeping_tets(s.elastic));
+  writer.plain("branch.relaxed_metric", relaxed_metrics(s.elastic));
   checkpoint.texts["case"] = case_hash(s);
   return checkpoint;
 }
@@ -312,10 +324,9 @@ void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
   s.contact.frame_velocity = {scalars.at(4), scalars.at(5), scalars.at(6)};
   for (Index slot = 0; slot < to_index(s.cracks.faces.size()); ++slot)
     s.cracks.face_of_facet[at(s.cracks.faces[at(slot)].facet)] = slot;
+  list_awake_faces(s.cracks);
   group_records(s.cracks);
-  std::vector<Index> all_tets(at(s.topology.num_tets()));
-  std::iota(all_tets.begin(), all_tets.end(), 0);
-  refresh_elastic_force(s.elastic, s.topology, all_tets);
+  restore_bulk(s, reader);
 }
 
 std::string state_hash(const Simulation& s) {

@@ -60,9 +60,9 @@ struct Simulation {
   ElasticForce elastic;
   CrackState cracks;
   ContactState contact;
+  RigidBodies rigid;
   std::vector<Tool> tools;            ///< in the order of options.tools
   std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending
-  RigidBodies rigid;
   EnergyLedger ledger;
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning
   RunTotals totals;

@@ -45,6 +45,15 @@ CLI::App* add_run(CLI::App& app, RunArguments& run) {
   return command;
 }
 
+CLI::App* add_modes(CLI::App& app, ModesArguments& modes) {
+  CLI::App* command = app.add_subcommand("modes", "Find the free vibrations of the particle of a case");
+  add_case(command, modes.case_file, modes.overrides);
+  command->add_option("--count", modes.count, "How many, without the rigid motions")->check(CLI::Range(1, 10000));
+  command->add_option("--out", modes.out, "Folder of the results; default: out/<name of the case>_modes")
+      ->type_name("DIR");
+  return command;
+}
+
 int run_parsed(int argc, char** argv) {
   CLI::App app{"Knap breaks a granule: fracture of a single particle on impact", "knap"};
   app.set_version_flag("--version", std::string("knap ") + version);
@@ -52,6 +61,7 @@ int run_parsed(int argc, char** argv) {
   RunArguments run;
   CheckArguments check;
   MeshArguments mesh;
+  ModesArguments modes;
   bool markdown = false;
   const CLI::App* run_app = add_run(app, run);
   CLI::App* check_app = app.add_subcommand("check", "Validate a case and print its sanity card");
@@ -59,6 +69,7 @@ int run_parsed(int argc, char** argv) {
   CLI::App* mesh_app = app.add_subcommand("mesh", "Mesh the particle of a case and report the quality");
   add_case(mesh_app, mesh.case_file, mesh.overrides);
   mesh_app->add_option("--out", mesh.out, "Where to write the mesh (.vtu)")->type_name("FILE")->required();
+  const CLI::App* modes_app = add_modes(app, modes);
   CLI::App* keys_app = app.add_subcommand("keys", "Print every key of a case file");
   keys_app->add_flag("--markdown", markdown, "As a page of documentation");
   try {
@@ -69,6 +80,7 @@ int run_parsed(int argc, char** argv) {
   if (*run_app) return code(run_command(run));
   if (*check_app) return code(check_command(check));
   if (*mesh_app) return code(mesh_command(mesh));
+  if (*modes_app) return code(modes_command(modes));
   return code(keys_command(markdown));
 }
 

@@ -36,6 +36,15 @@ struct MeshArguments {
 /// Writes the mesh of a case and prints its quality.
 ExitCode mesh_command(const MeshArguments& arguments);
 
+struct ModesArguments {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+  int count = 20;
+  std::filesystem::path out;  ///< "" = out/<case name>_modes
+};
+/// Finds the lowest free vibrations of the particle: frequencies to the terminal and modes.csv, shapes to modes.vtu.
+ExitCode modes_command(const ModesArguments& arguments);
+
 /// Prints every key of a case file.
 ExitCode keys_command(bool markdown);
 
