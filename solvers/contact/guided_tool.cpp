@@ -19,7 +19,7 @@ std::vector<Index> nodes_on(const ToolLandings& landings, Index tool) {
 
 /// The tool at any speed among the nodes that it stops at its free speed.
 struct Meeting {
-  Tool tool;
+  Tool& tool;
   const NodalState& nodes;
   const ToolStep& step;
   std::vector<Index> candidates;

@@ -26,6 +26,13 @@ void add(std::vector<double>& numbers, const CylinderTool& shape) {
   numbers.insert(numbers.end(), {shape.radius, shape.length});
 }
 
+void add(std::vector<double>& numbers, const SurfaceTool& shape) {
+  numbers.push_back(shape.thickness);
+  for (const Vec3& vertex : shape.surface.vertices) add(numbers, vertex);
+  for (const Triangle& triangle : shape.surface.triangles)
+    numbers.insert(numbers.end(), triangle.begin(), triangle.end());
+}
+
 void add(std::vector<double>&, const AtRest&) {}
 void add(std::vector<double>& numbers, const ConstantVelocity& motion) { add(numbers, motion.velocity); }
 void add(std::vector<double>& numbers, const Ramp& motion) {
@@ -55,6 +62,18 @@ void check(const ToolOptions& options, const BallTool& shape) {
 }
 void check(const ToolOptions& options, const CylinderTool& shape) {
   require(shape.radius > 0.0 && shape.length > 0.0, options, "radius and length of a cylinder must be above 0");
+}
+
+void check(const ToolOptions& options, const SurfaceTool& shape) {
+  require(!shape.surface.tree.empty(), options, "the surface has no triangles");
+  require(shape.thickness >= 0.0, options, "the thickness must not be negative");
+  if (shape.surface.closed || shape.thickness > 0.0) return;
+  const Rim rim = rim_of(shape.surface);
+  require(
+      false, options,
+      fmt::format("the surface is open: {} edges have one triangle only, the first near ({:.4g}, {:.4g}, {:.4g}) mm; "
+                  "close it, or give the thickness of a shell",
+                  rim.num_edges, 1e3 * rim.place.x(), 1e3 * rim.place.y(), 1e3 * rim.place.z()));
 }
 
 void check(const ToolOptions&, const AtRest&) {}

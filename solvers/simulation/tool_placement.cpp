@@ -34,8 +34,10 @@ bool contains(const TetCorners& nodes, const NodalState& state, const Vec3& poin
 
 void check_points(const Simulation& s, const Tool& tool) {
   const auto points = std::visit([](const auto& shape) { return points_inside(shape); }, tool.shape);
+  const BoundingBox box = bounding_box({.vertices = s.reference.vertices, .tets = s.topology.tet_vertices});
   for (const Vec3& local : points) {
     const Vec3 point = tool.state.position + tool.state.orientation * local;
+    if ((point.array() < box.low.array()).any() || (point.array() > box.high.array()).any()) continue;
     for (const TetCorners& tet : s.topology.tet_nodes)
       if (contains(tet, s.nodes, point))
         throw InputError(fmt::format("tool '{}': it starts inside the particle, at ({:.4g}, {:.4g}, {:.4g}) mm",
