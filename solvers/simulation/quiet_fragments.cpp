@@ -144,7 +144,13 @@ bool may_freeze(const Simulation& s, const QuietFragment& fragment) {
          fragment.vibration <= options.vibration_share * limit;
 }
 
+// A particle that cannot break has vibrations that never end in cracks: it is computed as long as it moves.
+bool can_break(const Simulation& s, std::span<const Index> tets) {
+  return s.options.particles[at(s.reference.particle_of_tet[at(tets[0])])].fracture.has_value();
+}
+
 std::optional<QuietFragment> quiet_fragment(const Simulation& s, std::span<const Index> tets) {
+  if (!can_break(s, tets)) return std::nullopt;
   if (s.rigid.of_tet(tets[0]) != none || !has_come_loose(s, tets)) return std::nullopt;
   QuietFragment fragment{{tets.begin(), tets.end()}, nodes_of(s.topology, tets), {}, 0.0};
   if (!has_nodes_of_its_own(s, fragment.nodes, s.contact.fragment_of_tet[at(tets[0])])) return std::nullopt;

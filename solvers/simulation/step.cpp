@@ -52,7 +52,8 @@ void scale_masses(Simulation& s, std::span<const Index> split_vertices) {
       const Vec3 added = missing * xyz(s.nodes.v[at(node)]);
       s.totals.added_linear += added;
       s.totals.added_angular += Vec3(xyz(s.nodes.x[at(node)])).cross(added);
-      s.totals.mass_scaling_energy += 0.5 * missing * s.nodes.v[at(node)].squaredNorm();
+      s.totals.mass_scaling_energy += 0.5 * missing * s.nodes.v[at(node)].squaredNorm() +
+                                      missing * node_potential(s.options.gravity, s.nodes, node, -0.5 * s.clock.dt);
     }
 }
 
@@ -84,7 +85,8 @@ void update_bulk(Simulation& s) {
 void kick_nodes(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Motion);
   kick(s.nodes, s.clock.dt);
-  kick(s.rigid, Vec3::Zero(), s.clock.dt);
+  if (!s.options.gravity.isZero(0.0)) s.totals.gravity += add_gravity(s.nodes, s.options.gravity, s.clock.dt);
+  kick(s.rigid, s.options.gravity, s.clock.dt);
 }
 
 void drift_nodes(Simulation& s) {
@@ -168,6 +170,7 @@ void apply_fragment_contacts(Simulation& s) {
   apply_contact_impulses(
       s.contact, s.nodes, s.rigid,
       {.pairs = {s.reference.pair_friction, s.reference.particle_of_tet, to_index(s.options.particles.size())},
+       .restitution = s.options.restitution,
        .sweeps = s.options.contact_sweeps});
   for (const Contact& contact : s.contact.contacts)
     if (contact.impulse.squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
@@ -177,9 +180,11 @@ void apply_tool_impulses(Simulation& s) {
   s.nodes_on_tools.clear();
   if (s.tools.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::Tools);
-  s.nodes_on_tools = apply_tools(
-      s.tools, s.nodes,
-      {.dt = s.clock.dt, .step = s.clock.step, .tolerance = landing_tolerance_over_edge * s.reference.mean_edge});
+  s.nodes_on_tools = apply_tools(s.tools, s.nodes,
+                                 {.dt = s.clock.dt,
+                                  .step = s.clock.step,
+                                  .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
+                                  .body_of_node = s.rigid.body_of_node});
 }
 
 void book_losses(Simulation& s) {
@@ -196,12 +201,15 @@ void book_losses(Simulation& s) {
 
 void balance_tools(Simulation& s) {
   EnergyLedger& ledger = s.ledger;
-  ledger[EnergyTerm::ToolFriction] = ledger[EnergyTerm::ToolImpact] = ledger[EnergyTerm::ToolWork] = 0.0;
+  ledger[EnergyTerm::ToolFriction] = ledger[EnergyTerm::ToolImpact] = 0.0;
+  ledger[EnergyTerm::ToolWork] = ledger[EnergyTerm::ToolKinetic] = 0.0;
   for (const Tool& tool : s.tools) {
     ledger[EnergyTerm::ToolFriction] += tool.state.friction_loss;
     ledger[EnergyTerm::ToolImpact] += tool.state.impact_loss;
-    ledger[EnergyTerm::ToolWork] -= tool.state.work;
+    if (!tool.is_guided()) ledger[EnergyTerm::ToolWork] -= tool.state.work;
+    ledger[EnergyTerm::ToolKinetic] += kinetic_energy(tool);
   }
+  ledger[EnergyTerm::Gravity] = gravity_potential(s, 0.5 * s.clock.dt) - s.reference.start_potential;
 }
 
 StepStatus check_energies(Simulation& s) {
@@ -214,6 +222,15 @@ StepStatus check_energies(Simulation& s) {
 }
 
 }  // namespace
+
+double gravity_potential(const Simulation& s, double ahead) {
+  const Vec3& gravity = s.options.gravity;
+  if (gravity.isZero(0.0)) return 0.0;
+  double potential = gravity_potential(s.nodes, gravity, ahead);
+  for (const Tool& tool : s.tools)
+    potential -= tool.mass * gravity.dot(tool.state.position + ahead * tool.state.velocity);
+  return potential;
+}
 
 void update_ledger(Simulation& s) {
   EnergyLedger& ledger = s.ledger;
@@ -233,6 +250,8 @@ void update_ledger(Simulation& s) {
   ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
   ledger[EnergyTerm::RigidVibration] = s.freezing.vibration;
   ledger[EnergyTerm::MassScaling] = 0.0 - s.totals.mass_scaling_energy;
+  const double supplied = std::max(0.0, -ledger[EnergyTerm::ToolWork]) + std::max(0.0, -ledger[EnergyTerm::Gravity]);
+  ledger.reference = std::max(ledger.reference, s.reference.incident_energy + supplied);
 }
 
 void balance_energies(Simulation& s) {
@@ -244,7 +263,7 @@ void balance_energies(Simulation& s) {
 }
 
 StepStatus step(Simulation& s) {
-  aim_tools(s.tools, s.options.tools, s.clock.time(), s.clock.dt);
+  aim_tools(s.tools, s.options.tools, s.options.gravity, s.clock.time(), s.clock.dt);
   insert_new_cracks(s);
   update_faces(s);
   detect_contacts(s);
