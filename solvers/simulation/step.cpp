@@ -174,7 +174,6 @@ void apply_tool_impulses(Simulation& s) {
   s.nodes_on_tools.clear();
   if (s.tools.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::Tools);
-  aim_tools(s.tools, s.options.tools, s.clock.time(), s.clock.dt);
   s.nodes_on_tools = apply_tools(
       s.tools, s.nodes,
       {.dt = s.clock.dt, .step = s.clock.step, .tolerance = landing_tolerance_over_edge * s.reference.mean_edge});
@@ -242,6 +241,7 @@ void balance_energies(Simulation& s) {
 }
 
 StepStatus step(Simulation& s) {
+  aim_tools(s.tools, s.options.tools, s.clock.time(), s.clock.dt);
   insert_new_cracks(s);
   update_faces(s);
   detect_contacts(s);
