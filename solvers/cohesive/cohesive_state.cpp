@@ -70,6 +70,16 @@ void add_cracks(CrackState& cracks, std::span<const CrackFace> faces, std::span<
     while (from > begin) cracks.records[at(--to)] = cracks.records[static_cast<std::size_t>(--from)];
   }
   list_vertices(cracks);
+  if (cracks.any_sleeps) list_awake_faces(cracks);
+}
+
+void list_awake_faces(CrackState& cracks) {
+  cracks.any_sleeps =
+      std::any_of(cracks.faces.begin(), cracks.faces.end(), [](const CrackFace& face) { return face.sleeps != 0; });
+  cracks.awake_faces.clear();
+  if (!cracks.any_sleeps) return;
+  for (std::size_t slot = 0; slot < cracks.faces.size(); ++slot)
+    if (!cracks.faces[slot].sleeps) cracks.awake_faces.push_back(to_index(slot));
 }
 
 void tidy_faces(CrackState& cracks) {
@@ -86,6 +96,7 @@ void tidy_faces(CrackState& cracks) {
     cracks.face_of_facet[at(cracks.faces[slot].facet)] = to_index(slot);
   keep_records_with_faces(cracks, facet_of_old_slot);
   list_vertices(cracks);
+  if (cracks.any_sleeps) list_awake_faces(cracks);
   group_records(cracks);
 }
 

@@ -54,6 +54,7 @@ struct alignas(64) CrackFace {
   std::array<std::array<Index, 2>, 3> nodes{};  ///< current nodes of the three corners (minus, plus)
   Index facet = none;
   std::array<std::uint8_t, 3> failed{};  ///< per corner
+  std::uint8_t sleeps = 0;               ///< both sides belong to one rigid body: no impulses, see sleeping_faces.hpp
   Vec4 rotation = Vec4::Zero();          ///< that gives angular momentum back in this step, if it rotates [rad/s]
   Vec4 centre = Vec4::Zero();            ///< mass centre of the six nodes, if it rotates [m]
 
@@ -88,6 +89,8 @@ struct CrackState {
   std::vector<CrackLosses> step_losses_of_vertex;  ///< of this step, may still be corrected
   std::vector<Index> vertices;                     ///< those with records, ascending
   RecordGroups groups;                             ///< derived: the vertices as the vector kernels take them
+  std::vector<Index> awake_faces;                  ///< derived: slots of the faces that do not sleep, if any sleeps
+  bool any_sleeps = false;                         ///< derived: some face sleeps
   double cracked_area = 0.0;                       ///< of all facets inserted so far [m2]
   std::int64_t last_damage_step = 0;               ///< last step with an insertion or noticeable damage
 
@@ -108,6 +111,9 @@ struct VertexRecord {
   CrackRecord record;
 };
 void add_cracks(CrackState& cracks, std::span<const CrackFace> faces, std::span<const VertexRecord> records);
+
+/// Brings awake_faces up to date.
+void list_awake_faces(CrackState& cracks);
 
 /// Removes the ended faces and their records and puts the faces in the order of their facets.
 void tidy_faces(CrackState& cracks);

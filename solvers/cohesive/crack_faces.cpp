@@ -77,27 +77,30 @@ bool update_rotation(CrackFace& face, const NodalState& nodes) {
 
 }  // namespace
 
-void update_normal(CrackFace& face, std::span<const Vec4> x) {
+Vec3 mid_surface_normal(const CrackFace& face, std::span<const Vec4> x) {
   const auto mid = [&](std::size_t k) -> Vec4 { return x[at(face.nodes[k][0])] + x[at(face.nodes[k][1])]; };
   const Vec4 a = mid(0), b = mid(1) - a, c = mid(2) - a;
   const Vec3 area = Vec3(xyz(b)).cross(Vec3(xyz(c)));
   const double norm = area.norm();
-  if (norm > 0.0) xyz(face.normal) = area / norm;
+  return norm > 0.0 ? Vec3(area / norm) : Vec3(xyz(face.normal));
 }
 
+void update_normal(CrackFace& face, std::span<const Vec4> x) { xyz(face.normal) = mid_surface_normal(face, x); }
+
 void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState& nodes, Index turn) {
-  parallel_for(
-      to_index(cracks.faces.size()),
-      [&](Index slot) {
-        CrackFace& face = cracks.faces[at(slot)];
-        const bool has_turn = turn == all_turns || (slot / faces_per_block) % num_turns == turn;
-        prefetch_nodes(cracks.faces, slot, nodes, has_turn);
-        update_normal(face, nodes.x);
-        face.normal[3] = has_turn && update_rotation(face, nodes) ? face_action::rotates : face_action::none;
-        if (face.failed[0] && face.failed[1] && face.failed[2])
-          topology.facet_state[at(face.facet)] = FacetState::Failed;
-      },
-      faces_per_block);
+  const auto update = [&](Index slot) {
+    CrackFace& face = cracks.faces[at(slot)];
+    const bool has_turn = turn == all_turns || (slot / faces_per_block) % num_turns == turn;
+    prefetch_nodes(cracks.faces, slot, nodes, has_turn);
+    update_normal(face, nodes.x);
+    face.normal[3] = has_turn && update_rotation(face, nodes) ? face_action::rotates : face_action::none;
+    if (face.failed[0] && face.failed[1] && face.failed[2]) topology.facet_state[at(face.facet)] = FacetState::Failed;
+  };
+  if (cracks.any_sleeps)
+    parallel_for(
+        to_index(cracks.awake_faces.size()), [&](Index i) { update(cracks.awake_faces[at(i)]); }, faces_per_block);
+  else
+    parallel_for(to_index(cracks.faces.size()), update, faces_per_block);
 }
 
 Vec3 pending_angular_momentum(const CrackState& cracks) {

@@ -35,12 +35,19 @@ Index hand_over_faces(CrackState& cracks, Topology& topology, std::span<const Ve
   return count;
 }
 
-std::vector<std::uint8_t> vertices_with_records(const CrackState& cracks) {
-  std::vector<std::uint8_t> has_records(cracks.losses_of_vertex.size(), 0);
-  for (const Index vertex : cracks.vertices)
-    for (const CrackRecord& record : cracks.records_of_vertex(vertex))
-      if (!cracks.faces[at(record.face)].has_ended()) has_records[at(vertex)] = 1;
-  return has_records;
+std::vector<FragmentJoint> fragment_joints(const CrackState& cracks, const Topology& topology,
+                                           std::span<const Index> fragment_of_tet) {
+  std::vector<FragmentJoint> joints;
+  for (const CrackFace& face : cracks.faces) {
+    if (face.has_ended()) continue;
+    const auto& [minus, plus] = topology.facet_tets[at(face.facet)];
+    const auto [low, high] = std::minmax(fragment_of_tet[at(minus)], fragment_of_tet[at(plus)]);
+    if (low == high) continue;
+    for (int k = 0; k < 3; ++k) joints.push_back({topology.facet_vertex(face.facet, k), {low, high}});
+  }
+  std::sort(joints.begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+  return joints;
 }
 
 }  // namespace knap

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "cohesive/cohesive_state.hpp"
+#include "core/fragment_joint.hpp"
 
 namespace knap {
 
@@ -18,7 +19,8 @@ struct HandOverOptions {
 Index hand_over_faces(CrackState& cracks, Topology& topology, std::span<const Vec4> x,
                       std::span<const Index> fragment_of_tet, const HandOverOptions& options);
 
-/// Per original vertex 1 where crack records still join its pieces.
-std::vector<std::uint8_t> vertices_with_records(const CrackState& cracks);
+/// Where cracks still join two fragments, sorted.
+std::vector<FragmentJoint> fragment_joints(const CrackState& cracks, const Topology& topology,
+                                           std::span<const Index> fragment_of_tet);
 
 }  // namespace knap

@@ -49,19 +49,44 @@ RecordSlots no_slots() {
   return slots;
 }
 
+bool sleeps(const CrackState& cracks, const CrackRecord& record) {
+  return cracks.any_sleeps && cracks.faces[at(record.face)].sleeps;
+}
+
+Index num_awake_records(const CrackState& cracks, Index vertex) {
+  const auto records = cracks.records_of_vertex(vertex);
+  if (!cracks.any_sleeps) return to_index(records.size());
+  return static_cast<Index>(std::count_if(records.begin(), records.end(),
+                                          [&](const CrackRecord& record) { return !sleeps(cracks, record); }));
+}
+
+// The vertices with records to solve; the others spend nothing.
+std::vector<Index> awake_vertices(CrackState& cracks) {
+  std::vector<Index> awake;
+  awake.reserve(cracks.vertices.size());
+  for (const Index v : cracks.vertices)
+    if (num_awake_records(cracks, v) > 0)
+      awake.push_back(v);
+    else
+      cracks.step_losses_of_vertex[at(v)] = {};
+  return awake;
+}
+
 void fill_lane(Chunk& chunk, RecordGroup& group, std::size_t lane, CrackState& cracks, Index vertex) {
   group.vertex[lane] = vertex;
   LocalNodes local;
   RecordSlots* slots = chunk.slots.data() + group.first_slots;
   const Index end = cracks.record_offsets[at(vertex) + 1];
-  for (Index r = cracks.record_offsets[at(vertex)]; r < end; ++r, ++slots) {
+  for (Index r = cracks.record_offsets[at(vertex)]; r < end; ++r) {
     CrackRecord& record = cracks.records[at(r)];
+    if (sleeps(cracks, record)) continue;
     record.local_a = local.number(record.node_a, record.local_a);
     record.local_b = local.number(record.node_b, record.local_b);
     slots->record[lane] = r;
     slots->couple[lane] = rows_per_face * record.face + first_couple_row + record.corner;
     slots->a[lane] = record.local_a;
     slots->b[lane] = record.local_b;
+    ++slots;
   }
   while (group.num_nodes < to_index(local.count)) {
     chunk.nodes.emplace_back().fill(none);
@@ -71,7 +96,7 @@ void fill_lane(Chunk& chunk, RecordGroup& group, std::size_t lane, CrackState& c
 }
 
 Chunk make_chunk(CrackState& cracks, std::span<const Index> vertices) {
-  const auto count = [&cracks](Index v) { return cracks.record_offsets[at(v) + 1] - cracks.record_offsets[at(v)]; };
+  const auto count = [&cracks](Index v) { return num_awake_records(cracks, v); };
   std::vector<Index> sorted(vertices.begin(), vertices.end());
   std::stable_sort(sorted.begin(), sorted.end(), [&count](Index a, Index b) { return count(a) > count(b); });
   Chunk chunk;
@@ -105,12 +130,12 @@ void append_chunk(RecordGroups& all, const Chunk& chunk) {
 }  // namespace
 
 void group_records(CrackState& cracks) {
-  const Index count = to_index(cracks.vertices.size());
+  const std::vector<Index> awake = awake_vertices(cracks);
+  const Index count = to_index(awake.size());
   std::vector<Chunk> chunks(at(num_blocks(count, vertices_per_chunk)));
   parallel_blocks(to_index(chunks.size()), [&](Index c) {
     const Index first = c * vertices_per_chunk;
-    const auto vertices =
-        std::span(cracks.vertices).subspan(at(first), at(std::min(vertices_per_chunk, count - first)));
+    const auto vertices = std::span(awake).subspan(at(first), at(std::min(vertices_per_chunk, count - first)));
     chunks[at(c)] = make_chunk(cracks, vertices);
   });
   RecordGroups& all = cracks.groups;

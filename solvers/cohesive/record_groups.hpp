@@ -37,7 +37,8 @@ struct RecordGroups {
 };
 
 struct CrackState;
-/// Numbers the nodes of every vertex (CrackRecord::local_a, local_b) and forms the groups.
+/// Numbers the nodes of every vertex (CrackRecord::local_a, local_b) and forms the groups of the records that do not
+/// sleep. Between two steps: losses of this step that are not settled are lost where all records sleep.
 void group_records(CrackState& cracks);
 
 }  // namespace knap

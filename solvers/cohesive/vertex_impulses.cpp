@@ -4,6 +4,7 @@
 // The alternative, springs from the start, gains 15-65 % of the incident energy at insertion or costs the time step.
 #include "cohesive/vertex_impulses.hpp"
 
+#include "cohesive/crack_faces.hpp"
 #include "cohesive/vertex_kernel.hpp"
 #include "core/parallel.hpp"
 
@@ -33,7 +34,8 @@ ImpulseView view(CrackState& cracks, NodalState& nodes) {
           nodes.v_before.data()->data(),
           nodes.mass.data(),
           cracks.losses_of_vertex.data(),
-          cracks.step_losses_of_vertex.data()};
+          cracks.step_losses_of_vertex.data(),
+          cracks.any_sleeps};
 }
 
 // The cracked vertices of some nodes in the order of the groups, where neighbours have about as many records.
@@ -80,24 +82,34 @@ CrackEnergies& CrackEnergies::operator+=(const CrackEnergies& other) {
   return *this;
 }
 
-CrackEnergies crack_energies(const CrackState& cracks, const NodalState& nodes, const VertexImpulseOptions& options) {
-  const CohesiveLaw& law = options.law;
+namespace {
+
+// Stored energy [J] of a softening record, at the half step after positions x. Rigid bodies turn the jumps of sleeping
+// records and nothing else.
+double stored_energy(const CrackState& cracks, const CrackRecord& record, const NodalState& nodes,
+                     const CohesiveLaw& law, double dt) {
+  const std::size_t a = at(record.node_a), b = at(record.node_b);
+  const CrackFace& face = cracks.faces[at(record.face)];
+  const Vec3 n = face.sleeps ? mid_surface_normal(face, nodes.x) : Vec3(xyz(face.normal));
+  const Vec3 jump = xyz(nodes.x[b]) - xyz(nodes.x[a]);
+  const Vec3 slip = face.sleeps ? Vec3(Vec3::Zero()) : Vec3(xyz(nodes.v[b]) - xyz(nodes.v[a]));
+  const double jn = jump.dot(n);
+  const Vec3 tangential = jump - jn * n;
+  const double stiffness = secant_stiffness(record.strength, record.d_max, record.delta_c);
+  const double energy2 = energy_opening2(law, jn, tangential.squaredNorm());
   const double mode = law.beta * law.beta / law.kappa;
+  const double power = (std::max(jn, 0.0) * n + mode * tangential).dot(slip);
+  return 0.5 * stiffness * (energy2 + dt * power);
+}
+
+}  // namespace
+
+CrackEnergies crack_energies(const CrackState& cracks, const NodalState& nodes, const VertexImpulseOptions& options) {
   return ordered_sum<CrackEnergies>(to_index(cracks.losses_of_vertex.size()), [&](Index vertex) {
     CrackEnergies sum{0.0, cracks.losses_of_vertex[at(vertex)]};
-    for (const CrackRecord& record : cracks.records_of_vertex(vertex)) {
-      if (record.regime != RecordRegime::Softening || record.is_closed_tip()) continue;
-      const std::size_t a = at(record.node_a), b = at(record.node_b);
-      const Vec3 n = xyz(cracks.faces[at(record.face)].normal);
-      const Vec3 jump = xyz(nodes.x[b]) - xyz(nodes.x[a]);
-      const Vec3 slip = xyz(nodes.v[b]) - xyz(nodes.v[a]);
-      const double jn = jump.dot(n);
-      const Vec3 tangential = jump - jn * n;
-      const double stiffness = secant_stiffness(record.strength, record.d_max, record.delta_c);
-      const double energy2 = energy_opening2(law, jn, tangential.squaredNorm());
-      const double power = (std::max(jn, 0.0) * n + mode * tangential).dot(slip);
-      sum.stored += 0.5 * stiffness * (energy2 + options.dt * power);
-    }
+    for (const CrackRecord& record : cracks.records_of_vertex(vertex))
+      if (record.regime == RecordRegime::Softening && !record.is_closed_tip())
+        sum.stored += stored_energy(cracks, record, nodes, options.law, options.dt);
     return sum;
   });
 }

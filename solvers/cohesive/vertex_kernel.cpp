@@ -445,8 +445,9 @@ void BookVertices(const ImpulseView& view, const ImpulseCoefficients& k, std::sp
       any = false;
       for (Index lane = 0; lane < width; ++lane) {
         const Index v = vertex[at(lane0 + lane)];
-        const bool idle = v == none || view.record_offsets[v] + i >= view.record_offsets[v + 1];
-        records[lane] = idle ? none : view.record_offsets[v] + i;
+        const Index r = v == none ? none : view.record_offsets[v] + i;
+        const bool idle = v == none || r >= view.record_offsets[v + 1];
+        records[lane] = idle || (view.any_sleeps && view.faces[view.records[r].face].sleeps) ? none : r;
         any |= !idle;
       }
       if (any) book_row(view, k, records, workspace, spent);

@@ -28,6 +28,7 @@ struct ImpulseView {
   const double* mass = nullptr;
   CrackLosses* losses = nullptr;       ///< per vertex, up to the last step
   CrackLosses* step_losses = nullptr;  ///< per vertex, of this step
+  bool any_sleeps = false;             ///< some face sleeps; its records are not booked
 };
 
 using LaneValues = std::array<double, std::size_t{group_lanes}>;

@@ -1,3 +1,6 @@
+// Fat boxes of the tets with free faces, in the cells of an unbounded regular grid, the cells hashed into buckets:
+// fragments that fly far cost nothing. A fragment's boxes are fattened by its own margin, so that a few fast ones do
+// not make the boxes of all others large or the rebuilds frequent.
 #include "contact/broad_phase.hpp"
 
 #include <algorithm>
@@ -5,31 +8,39 @@
 #include <cmath>
 
 #include "contact/free_faces.hpp"
+#include "contact/tet_overlap.hpp"
 #include "core/parallel.hpp"
 
 namespace knap {
 namespace {
 
-constexpr Index tets_per_block = 512;
+constexpr Index buckets_per_block = 1024;
+// A fragment's margin lets it go on as it does for so many steps, but is at most so many times the least one: wider
+// boxes would meet too many others.
+constexpr double steps_ahead = 48.0;
+constexpr double widest_margin = 4.0;
 
+using Box = Eigen::AlignedBox3d;
 using Cell = Eigen::Vector3i;
 
-/// A contact point in the grid, with all that the search reads.
-struct GridPoint {
-  Vec3 position = Vec3::Zero();  ///< [m]
-  Cell cell = Cell::Zero();
-  Index point = none;  ///< in ContactState::points
+/// A tet with a free face and its fat box.
+struct SurfaceTet {
+  Index tet = none;
   Index fragment = none;
+  Box box;
 };
 
-/// Points sorted into the cells of an unbounded regular grid, the cells hashed into buckets: fragments that fly far
-/// cost nothing.
-struct PointGrid {
+/// A box in a cell.
+struct Entry {
+  Index surface_tet = none;
+  Cell cell = Cell::Zero();
+};
+
+struct BoxGrid {
   double cell_size = 1.0;
   std::uint32_t mask = 0;
-  std::vector<Index> offsets;             ///< bucket b has points [offsets[b], offsets[b + 1])
-  std::vector<GridPoint> points;          ///< by bucket
-  std::vector<Index> fragment_of_bucket;  ///< the only one with points in it, none = several
+  std::vector<Entry> entries;
+  Csr of_bucket;  ///< bucket -> entries
 
   Cell cell(const Vec3& p) const {
     // Beyond a billion cells all is one cell: slow there, but right.
@@ -41,95 +52,6 @@ struct PointGrid {
   }
 };
 
-void note_fragments(PointGrid& grid) {
-  grid.fragment_of_bucket.assign(grid.offsets.size() - 1, none);
-  for (std::size_t bucket = 0; bucket + 1 < grid.offsets.size(); ++bucket) {
-    const std::span points(grid.points.data() + grid.offsets[bucket], grid.points.data() + grid.offsets[bucket + 1]);
-    const auto same = [&points](const GridPoint& point) { return point.fragment == points.front().fragment; };
-    if (!points.empty() && std::all_of(points.begin(), points.end(), same))
-      grid.fragment_of_bucket[bucket] = points.front().fragment;
-  }
-}
-
-PointGrid make_grid(const std::vector<ContactPoint>& points, std::span<const Vec4> x, double cell_size) {
-  PointGrid grid;
-  grid.cell_size = cell_size;
-  const std::uint32_t buckets = std::bit_ceil(static_cast<std::uint32_t>(2 * points.size() + 1));
-  grid.mask = buckets - 1;
-  std::vector<GridPoint> unsorted;
-  std::vector<Index> bucket_of_point;
-  unsorted.reserve(points.size());
-  bucket_of_point.reserve(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Vec3 p = position(points[i], x);
-    unsorted.push_back({p, grid.cell(p), to_index(i), points[i].fragment});
-    bucket_of_point.push_back(grid.bucket(unsorted.back().cell));
-  }
-  Csr points_of_bucket = make_csr(static_cast<Index>(buckets), bucket_of_point);
-  grid.offsets = std::move(points_of_bucket.offsets);
-  grid.points.reserve(points.size());
-  for (const Index i : points_of_bucket.items) grid.points.push_back(unsorted[at(i)]);
-  note_fragments(grid);
-  return grid;
-}
-
-/// Calls visit(point) for the points in a box that belong to other fragments.
-template <class Visit>
-void visit_points(const PointGrid& grid, const Eigen::AlignedBox3d& box, Index fragment, Visit&& visit) {
-  const Cell low = grid.cell(box.min()), high = grid.cell(box.max());
-  for (int k = low.z(); k <= high.z(); ++k)
-    for (int j = low.y(); j <= high.y(); ++j)
-      for (int i = low.x(); i <= high.x(); ++i) {
-        const Cell cell(i, j, k);
-        const Index bucket = grid.bucket(cell);
-        if (grid.fragment_of_bucket[at(bucket)] == fragment) continue;
-        for (Index p = grid.offsets[at(bucket)]; p < grid.offsets[at(bucket + 1)]; ++p) {
-          const GridPoint& point = grid.points[at(p)];
-          if (point.fragment != fragment && point.cell == cell && box.contains(point.position)) visit(point);
-        }
-      }
-}
-
-/// The outward face planes of a tet, to bound distances from below.
-struct TetPlanes {
-  std::array<Vec3, 4> normal;
-  std::array<double, 4> offset;
-
-  TetPlanes(const TetCorners& nodes, std::span<const Vec4> x) {
-    for (std::size_t i = 0; i < 4; ++i) {
-      const auto& corners = facet_of_corner[i];
-      const Vec3 a = xyz(x[at(nodes[at(corners[0])])]);
-      const Vec3 b = xyz(x[at(nodes[at(corners[1])])]);
-      const Vec3 c = xyz(x[at(nodes[at(corners[2])])]);
-      normal[i] = (b - a).cross(c - a).normalized();
-      offset[i] = normal[i].dot(a);
-    }
-  }
-  double distance_bound(const Vec3& p) const {
-    double largest = -1e300;
-    for (std::size_t i = 0; i < 4; ++i) largest = std::max(largest, normal[i].dot(p) - offset[i]);
-    return std::max(0.0, largest);
-  }
-};
-
-bool joined_by_records(const ContactPoint& point, Index tet, const Topology& topology,
-                       std::span<const std::uint8_t> has_records) {
-  const TetCorners& vertices = topology.tet_vertices[at(tet)];
-  for (const Index node : point.nodes) {
-    if (node == none) continue;
-    const Index vertex = topology.vertex_of_node[at(node)];
-    if (has_records[at(vertex)] && std::find(vertices.begin(), vertices.end(), vertex) != vertices.end()) return true;
-  }
-  return false;
-}
-
-double mean_tet_size(const Topology& topology, std::span<const Vec4> x, const std::vector<Index>& tets) {
-  double sum = 0.0;
-  for (const Index t : tets)
-    sum += (xyz(x[at(topology.tet_nodes[at(t)][0])]) - xyz(x[at(topology.tet_nodes[at(t)][1])])).norm();
-  return tets.empty() ? 1.0 : sum / static_cast<double>(tets.size());
-}
-
 std::vector<Index> tets_with_free_faces(std::span<const std::uint8_t> free_faces) {
   std::vector<Index> tets;
   for (std::size_t t = 0; t < free_faces.size(); ++t)
@@ -137,72 +59,176 @@ std::vector<Index> tets_with_free_faces(std::span<const std::uint8_t> free_faces
   return tets;
 }
 
-/// What the search reads beside the contact's own state.
-struct Surroundings {
-  const Topology& topology;
-  std::span<const Vec4> x;
-  std::span<const std::uint8_t> has_records;
-  const PointGrid& grid;
-};
+Csr nodes_by_fragment(const ContactState& contact, const Topology& topology, std::span<const Index> tets) {
+  std::vector<Index> fragment_of_node(at(topology.num_nodes()), none);
+  for (const Index t : tets)
+    for (const Index node : topology.tet_nodes[at(t)]) fragment_of_node[at(node)] = contact.fragment_of_tet[at(t)];
+  return make_csr(contact.fragments, fragment_of_node);
+}
 
-void add_candidates_of_tet(const ContactState& contact, const Surroundings& here, Index tet,
-                           std::vector<ContactCandidate>& found) {
-  const TetCorners& nodes = here.topology.tet_nodes[at(tet)];
-  Eigen::AlignedBox3d box;
-  for (const Index node : nodes) box.extend(Vec3(xyz(here.x[at(node)])));
-  box.min().array() -= contact.skin;
-  box.max().array() += contact.skin;
-  const TetPlanes planes(nodes, here.x);
-  visit_points(here.grid, box, contact.fragment_of_tet[at(tet)], [&](const GridPoint& point) {
-    const double separation = planes.distance_bound(point.position);
-    if (separation > contact.skin) return;
-    if (joined_by_records(contact.points[at(point.point)], tet, here.topology, here.has_records)) return;
-    found.push_back({point.point, tet, separation});
+Vec3 mean_velocity(std::span<const Index> nodes, std::span<const Vec4> v) {
+  Vec3 sum = Vec3::Zero();
+  for (const Index node : nodes) sum += xyz(v[at(node)]);
+  return nodes.empty() ? sum : Vec3(sum / static_cast<double>(nodes.size()));
+}
+
+/// Largest speed of any surface node of the fragment in the contact's frame [m/s].
+double largest_speed(const ContactState& contact, Index fragment, std::span<const Vec4> v) {
+  double largest = 0.0;
+  for (const Index node : contact.surface_nodes[fragment])
+    largest = std::max(largest, (xyz(v[at(node)]) - contact.frame_velocity).squaredNorm());
+  return std::sqrt(largest);
+}
+
+void set_margins(ContactState& contact, const ContactSurroundings& here) {
+  contact.frame_velocity = mean_velocity(contact.surface_nodes.items, here.nodes.v);
+  contact.travel.assign(at(contact.fragments), 0.0);
+  contact.margin.assign(at(contact.fragments), 0.0);
+  parallel_for(
+      contact.fragments,
+      [&](Index f) {
+        const double ahead = steps_ahead * here.dt * largest_speed(contact, f, here.nodes.v);
+        contact.margin[at(f)] = std::min(contact.skin + ahead, widest_margin * contact.skin);
+      },
+      16);
+}
+
+std::vector<SurfaceTet> fat_boxes(const ContactState& contact, const ContactSurroundings& here,
+                                  std::span<const Index> tets) {
+  std::vector<SurfaceTet> boxes(tets.size());
+  parallel_for(to_index(tets.size()), [&](Index i) {
+    SurfaceTet& fat = boxes[at(i)];
+    fat.tet = tets[at(i)];
+    fat.fragment = contact.fragment_of_tet[at(fat.tet)];
+    for (const Index node : here.topology.tet_nodes[at(fat.tet)]) fat.box.extend(Vec3(xyz(here.nodes.x[at(node)])));
+    const double margin = contact.margin[at(fat.fragment)];
+    fat.box.min().array() -= margin;
+    fat.box.max().array() += margin;
   });
+  return boxes;
+}
+
+template <class Visit>
+void visit_cells(const BoxGrid& grid, const Box& box, Visit&& visit) {
+  const Cell low = grid.cell(box.min()), high = grid.cell(box.max());
+  for (int k = low.z(); k <= high.z(); ++k)
+    for (int j = low.y(); j <= high.y(); ++j)
+      for (int i = low.x(); i <= high.x(); ++i) visit(Cell(i, j, k));
+}
+
+// The median extent, so that a few large boxes do not coarsen the grid.
+double typical_extent(const std::vector<SurfaceTet>& boxes) {
+  std::vector<double> extents;
+  extents.reserve(boxes.size());
+  for (const SurfaceTet& fat : boxes) extents.push_back(fat.box.sizes().maxCoeff());
+  const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
+  std::nth_element(extents.begin(), middle, extents.end());
+  return *middle;
+}
+
+BoxGrid make_grid(const std::vector<SurfaceTet>& boxes) {
+  BoxGrid grid;
+  grid.cell_size = typical_extent(boxes);
+  grid.entries.reserve(8 * boxes.size());
+  for (Index i = 0; i < to_index(boxes.size()); ++i)
+    visit_cells(grid, boxes[at(i)].box, [&](const Cell& cell) { grid.entries.push_back({i, cell}); });
+  const std::uint32_t buckets = std::bit_ceil(static_cast<std::uint32_t>(grid.entries.size() / 4 + 1));
+  grid.mask = buckets - 1;
+  std::vector<Index> bucket_of_entry;
+  bucket_of_entry.reserve(grid.entries.size());
+  for (const Entry& entry : grid.entries) bucket_of_entry.push_back(grid.bucket(entry.cell));
+  grid.of_bucket = make_csr(static_cast<Index>(buckets), bucket_of_entry);
+  return grid;
+}
+
+// Whether a crack still joins the two fragments at a vertex that both tets have.
+bool are_joined(const SurfaceTet& a, const SurfaceTet& b, const ContactSurroundings& here) {
+  const TetCorners& of_a = here.topology.tet_vertices[at(a.tet)];
+  const TetCorners& of_b = here.topology.tet_vertices[at(b.tet)];
+  for (const Index vertex : of_a) {
+    if (std::find(of_b.begin(), of_b.end(), vertex) == of_b.end()) continue;
+    const FragmentJoint joint{vertex, {std::min(a.fragment, b.fragment), std::max(a.fragment, b.fragment)}};
+    if (std::binary_search(here.joints.begin(), here.joints.end(), joint)) return true;
+  }
+  return false;
+}
+
+// Adds the candidate of two boxes that meet, unless the tets are too far apart after all.
+void add_candidate(const ContactState& contact, const ContactSurroundings& here, const SurfaceTet& a,
+                   const SurfaceTet& b, std::vector<ContactCandidate>& found) {
+  const double reach = contact.margin[at(a.fragment)] + contact.margin[at(b.fragment)];
+  const double gap = separation_by_faces(make_tet_shape(here.topology.tet_nodes[at(a.tet)], here.nodes.x),
+                                         make_tet_shape(here.topology.tet_nodes[at(b.tet)], here.nodes.x));
+  if (gap > reach || are_joined(a, b, here)) return;
+  found.push_back({{a.tet, b.tet}, {a.fragment, b.fragment}, gap});
+}
+
+// Pairs that share several cells are found in the cell of the lowest corner that both boxes have.
+void search_bucket(const ContactState& contact, const ContactSurroundings& here, const BoxGrid& grid,
+                   const std::vector<SurfaceTet>& boxes, std::span<const Index> bucket,
+                   std::vector<ContactCandidate>& found) {
+  for (std::size_t i = 0; i < bucket.size(); ++i) {
+    const Entry& first = grid.entries[at(bucket[i])];
+    const SurfaceTet& a = boxes[at(first.surface_tet)];
+    for (std::size_t j = i + 1; j < bucket.size(); ++j) {
+      const Entry& second = grid.entries[at(bucket[j])];
+      if (second.cell != first.cell) continue;
+      const SurfaceTet& b = boxes[at(second.surface_tet)];
+      if (a.fragment == b.fragment || !a.box.intersects(b.box)) continue;
+      if (grid.cell(a.box.min().cwiseMax(b.box.min())) != first.cell) continue;
+      if (a.tet < b.tet) {
+        add_candidate(contact, here, a, b, found);
+      } else {
+        add_candidate(contact, here, b, a, found);
+      }
+    }
+  }
+}
+
+// In the order of their first tets, so that a sweep walks the memory in order.
+void sort_by_first_tet(std::vector<ContactCandidate>& candidates, Index num_tets) {
+  std::vector<Index> first;
+  first.reserve(candidates.size());
+  for (const ContactCandidate& candidate : candidates) first.push_back(candidate.tets[0]);
+  const Csr of_tet = make_csr(num_tets, first);
+  std::vector<ContactCandidate> sorted;
+  sorted.reserve(candidates.size());
+  for (const Index i : of_tet.items) sorted.push_back(candidates[at(i)]);
+  candidates = std::move(sorted);
 }
 
 }  // namespace
 
-Vec3 position(const ContactPoint& point, std::span<const Vec4> x) {
-  if (point.is_node()) return xyz(x[at(point.nodes[0])]);
-  return (xyz(x[at(point.nodes[0])]) + xyz(x[at(point.nodes[1])]) + xyz(x[at(point.nodes[2])])) / 3.0;
-}
-
-void rebuild_candidates(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
-                        std::span<const std::uint8_t> has_records) {
-  contact.travel = 0.0;
-  contact.points.clear();
+void rebuild_candidates(ContactState& contact, const ContactSurroundings& here) {
   contact.candidates.clear();
   if (contact.fragments < 2) return;
-  contact.free_faces = free_faces(topology);
-  contact.points = contact_points(topology, contact.free_faces, contact.fragment_of_tet);
+  contact.free_faces = free_faces(here.topology);
   const std::vector<Index> tets = tets_with_free_faces(contact.free_faces);
-  const PointGrid grid = make_grid(contact.points, x, mean_tet_size(topology, x, tets));
-  const Surroundings here{topology, x, has_records, grid};
-  std::vector<std::vector<ContactCandidate>> found(at(num_blocks(to_index(tets.size()), tets_per_block)));
+  if (tets.empty()) return;
+  contact.surface_nodes = nodes_by_fragment(contact, here.topology, tets);
+  set_margins(contact, here);
+  const std::vector<SurfaceTet> boxes = fat_boxes(contact, here, tets);
+  const BoxGrid grid = make_grid(boxes);
+  std::vector<std::vector<ContactCandidate>> found(at(num_blocks(grid.of_bucket.num_rows(), buckets_per_block)));
   parallel_blocks(to_index(found.size()), [&](Index block) {
-    const Index end = std::min(to_index(tets.size()), (block + 1) * tets_per_block);
-    for (Index k = block * tets_per_block; k < end; ++k)
-      add_candidates_of_tet(contact, here, tets[at(k)], found[at(block)]);
+    const Index end = std::min(grid.of_bucket.num_rows(), (block + 1) * buckets_per_block);
+    for (Index bucket = block * buckets_per_block; bucket < end; ++bucket)
+      search_bucket(contact, here, grid, boxes, grid.of_bucket[bucket], found[at(block)]);
   });
   for (auto& part : found) {
     make_room(contact.candidates, contact.candidates.size() + part.size());
     contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());
     part = {};
   }
+  sort_by_first_tet(contact.candidates, here.topology.num_tets());
 }
 
-double largest_approach(std::span<const Vec4> v, double dt) {
-  struct Range {
-    Vec4 low = Vec4::Constant(1e300), high = Vec4::Constant(-1e300);
-    Range& operator+=(const Range& other) {
-      low = low.cwiseMin(other.low);
-      high = high.cwiseMax(other.high);
-      return *this;
-    }
-  };
-  const Range range = ordered_sum<Range>(to_index(v.size()), [&](Index i) { return Range{v[at(i)], v[at(i)]}; });
-  return v.empty() ? 0.0 : dt * (range.high - range.low).norm();
+bool advance_travel(ContactState& contact, std::span<const Vec4> v, double dt) {
+  parallel_for(
+      contact.fragments, [&](Index f) { contact.travel[at(f)] += dt * largest_speed(contact, f, v); }, 16);
+  for (std::size_t f = 0; f < contact.travel.size(); ++f)
+    if (contact.travel[f] > contact.margin[f]) return true;
+  return false;
 }
 
 }  // namespace knap

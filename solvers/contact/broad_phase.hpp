@@ -1,20 +1,25 @@
 #pragma once
-#include <span>
-
 #include "contact/contact_state.hpp"
+#include "core/fragment_joint.hpp"
+#include "core/nodal_state.hpp"
+#include "core/topology.hpp"
 
 namespace knap {
 
-/// Position of a contact point [m].
-Vec3 position(const ContactPoint& point, std::span<const Vec4> x);
+/// What a rebuild reads beside the contact's fragment labels.
+struct ContactSurroundings {
+  const Topology& topology;
+  const NodalState& nodes;
+  std::span<const FragmentJoint> joints;  ///< sorted
+  double dt = 0.0;                        ///< [s]
+};
 
-/// Finds anew all pairs of a point and a tet of different fragments closer than the skin, at positions x, from the
-/// contact's fragment labels. has_records tells which original vertices still have crack records: those join the pieces
-/// of the vertex, so points there do not touch the tets around it.
-void rebuild_candidates(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
-                        std::span<const std::uint8_t> has_records);
+/// Finds anew all pairs of tets with a free face, of different fragments, that may meet while every fragment travels no
+/// further than its margin, which grows with its speed; sets all travels to zero.
+void rebuild_candidates(ContactState& contact, const ContactSurroundings& here);
 
-/// Bound of the way that any two nodes come nearer to each other at velocities v [m/s] within dt [m].
-double largest_approach(std::span<const Vec4> v, double dt);
+/// Adds the ways of the last drift, at velocities v [m/s] for dt [s], to the fragments' travel; returns whether one has
+/// gone beyond its margin, so that the candidates must be rebuilt.
+bool advance_travel(ContactState& contact, std::span<const Vec4> v, double dt);
 
 }  // namespace knap

@@ -1,27 +1,93 @@
 #include "contact/contact_impulses.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace knap {
 namespace {
 
-Vec3 relative(const Contact& c, const std::vector<Vec4>& field) {
+// Contacts have settled when a sweep changes no velocity by more than this share of the largest approach.
+constexpr double settled = 1e-10;
+
+Vec3 side_velocity(const ContactSide& side, const Vec3& place, const std::vector<Vec4>& v, const RigidBodies& rigid) {
+  if (side.body != none) return velocity_at(rigid.bodies[at(side.body)], place);
   Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < 7; ++i) sum += c.weights[i] * xyz(field[at(c.nodes[i])]);
+  for (std::size_t i = 0; i < 4; ++i) sum += side.weights[i] * xyz(v[at(side.nodes[i])]);
   return sum;
 }
 
-double effective_mass(const Contact& c, const NodalState& nodes) {
-  double inverse = 0.0;
-  for (std::size_t i = 0; i < 7; ++i) inverse += c.weights[i] * c.weights[i] / nodes.mass[at(c.nodes[i])];
-  return 1.0 / inverse;
+Vec3 side_velocity_before(const ContactSide& side, const Vec3& place, const NodalState& nodes,
+                          const RigidBodies& rigid) {
+  if (side.body != none) return velocity_before_at(rigid.bodies[at(side.body)], place);
+  return side_velocity(side, place, nodes.v_before, rigid);
 }
 
-void add_impulse(const Contact& c, const Vec3& impulse, NodalState& nodes) {
-  for (std::size_t i = 0; i < 7; ++i) {
-    if (c.weights[i] == 0.0) continue;
-    xyz(nodes.v[at(c.nodes[i])]) += c.weights[i] / nodes.mass[at(c.nodes[i])] * impulse;
+// Of the second side relative to the first.
+Vec3 relative_velocity(const Contact& c, const NodalState& nodes, const RigidBodies& rigid) {
+  return side_velocity(c.sides[1], c.place, nodes.v, rigid) - side_velocity(c.sides[0], c.place, nodes.v, rigid);
+}
+
+// Velocity at the point per impulse there [1/kg].
+Mat3 mobility(const ContactSide& side, const Vec3& place, const NodalState& nodes, const RigidBodies& rigid) {
+  if (side.body != none) return inverse_mass_at(rigid.bodies[at(side.body)], place);
+  double inverse = 0.0;
+  for (std::size_t i = 0; i < 4; ++i) inverse += side.weights[i] * side.weights[i] / nodes.mass[at(side.nodes[i])];
+  return inverse * Mat3::Identity();
+}
+
+void add_impulse(const ContactSide& side, const Vec3& place, const Vec3& impulse, NodalState& nodes,
+                 RigidBodies& rigid) {
+  if (side.body != none) {
+    apply_impulse(rigid.bodies[at(side.body)], place, impulse);
+    return;
   }
+  for (std::size_t i = 0; i < 4; ++i)
+    xyz(nodes.v[at(side.nodes[i])]) += side.weights[i] / nodes.mass[at(side.nodes[i])] * impulse;
+}
+
+// What the bodies are told of their contacts.
+void note_approach(const Contact& c, double approach, RigidBodies& rigid) {
+  for (const ContactSide& side : c.sides)
+    if (side.body != none) rigid.approach[at(side.body)] = std::max(rigid.approach[at(side.body)], approach);
+}
+
+void note_push(const Contact& c, RigidBodies& rigid) {
+  for (const ContactSide& side : c.sides)
+    if (side.body != none) rigid.push[at(side.body)] += c.impulse.norm();
+}
+
+void add_impulse(const Contact& c, const Vec3& impulse, NodalState& nodes, RigidBodies& rigid) {
+  add_impulse(c.sides[0], c.place, -impulse, nodes, rigid);
+  add_impulse(c.sides[1], c.place, impulse, nodes, rigid);
+}
+
+/// What the sweeps need of a contact.
+struct Row {
+  double normal_mass = 0.0;      ///< [kg]
+  double tangential_mass = 0.0;  ///< for the direction that moves most easily: the sweeps converge from below [kg]
+  double target = 0.0;           ///< normal velocity to reach [m/s]
+};
+
+bool is_rigid(const Contact& c) { return c.sides[0].body != none || c.sides[1].body != none; }
+bool is_between_bodies(const Contact& c) { return c.sides[0].body != none && c.sides[1].body != none; }
+
+Row make_row(const Contact& c, const NodalState& nodes, RigidBodies& rigid, const ContactOptions& options) {
+  const Mat3 both = mobility(c.sides[0], c.place, nodes, rigid) + mobility(c.sides[1], c.place, nodes, rigid);
+  Row row;
+  const double along = c.normal.dot(both * c.normal);
+  row.normal_mass = 1.0 / along;
+  if (is_rigid(c)) {
+    // Of the mobility in the tangential plane, [a b; b d] for two tangents, the largest eigenvalue.
+    const Vec3 s = c.normal.unitOrthogonal(), t = c.normal.cross(s);
+    const double a = s.dot(both * s), b = s.dot(both * t), d = t.dot(both * t);
+    row.tangential_mass = 1.0 / (0.5 * (a + d) + std::hypot(0.5 * (a - d), b));
+  } else {
+    row.tangential_mass = row.normal_mass;
+  }
+  const double approach = -c.normal.dot(relative_velocity(c, nodes, rigid));
+  note_approach(c, approach, rigid);
+  if (is_between_bodies(c) && approach > options.slowest) row.target = options.restitution * approach;
+  return row;
 }
 
 // The impulse nearest to `trial` in the Coulomb cone about the normal.
@@ -33,28 +99,62 @@ Vec3 in_cone(const Vec3& trial, const Vec3& normal, double friction) {
   return push * normal + tangential;
 }
 
-}  // namespace
-
-void apply_contact_impulses(ContactState& contact, NodalState& nodes, const ContactOptions& options) {
-  std::vector<double> mass;
-  mass.reserve(contact.contacts.size());
-  for (Contact& c : contact.contacts) {
-    mass.push_back(effective_mass(c, nodes));
-    c.impulse = in_cone(c.impulse, c.normal, options.friction);
-    add_impulse(c, c.impulse, nodes);
-  }
-  for (int sweep = 0; sweep < options.sweeps; ++sweep)
-    for (std::size_t i = 0; i < contact.contacts.size(); ++i) {
-      Contact& c = contact.contacts[i];
-      const Vec3 impulse = in_cone(c.impulse - mass[i] * relative(c, nodes.v), c.normal, options.friction);
-      add_impulse(c, impulse - c.impulse, nodes);
-      c.impulse = impulse;
-    }
+// Solves one contact; returns the change of its velocity.
+double solve(Contact& c, const Row& row, NodalState& nodes, RigidBodies& rigid, double friction) {
+  const Vec3 velocity = relative_velocity(c, nodes, rigid);
+  const double along = velocity.dot(c.normal);
+  const Vec3 trial = c.impulse - row.normal_mass * (along - row.target) * c.normal -
+                     row.tangential_mass * (velocity - along * c.normal);
+  const Vec3 impulse = in_cone(trial, c.normal, friction);
+  const Vec3 change = impulse - c.impulse;
+  add_impulse(c, change, nodes, rigid);
+  c.impulse = impulse;
+  return change.norm() / row.normal_mass;
 }
 
-void book_contact_losses(ContactState& contact, const NodalState& nodes) {
-  for (const Contact& c : contact.contacts)
-    contact.dissipated -= 0.5 * c.impulse.dot(relative(c, nodes.v) + relative(c, nodes.v_before));
+// Until nothing changes any more.
+void settle_bodies(ContactState& contact, std::span<const Row> rows, NodalState& nodes, RigidBodies& rigid,
+                   const ContactOptions& options) {
+  std::vector<std::size_t> with_body;
+  double fastest = 0.0;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Contact& c = contact.contacts[i];
+    if (!is_rigid(c)) continue;
+    with_body.push_back(i);
+    fastest = std::max({fastest, c.impulse.norm() / rows[i].normal_mass, rows[i].target});
+  }
+  for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
+    double largest = 0.0;
+    for (const std::size_t i : with_body)
+      largest = std::max(largest, solve(contact.contacts[i], rows[i], nodes, rigid, options.friction));
+    if (largest <= settled * fastest) return;
+  }
+}
+
+}  // namespace
+
+void apply_contact_impulses(ContactState& contact, NodalState& nodes, RigidBodies& rigid,
+                            const ContactOptions& options) {
+  std::vector<Row> rows;
+  rows.reserve(contact.contacts.size());
+  for (const Contact& c : contact.contacts) rows.push_back(make_row(c, nodes, rigid, options));
+  for (Contact& c : contact.contacts) {
+    c.impulse = in_cone(c.impulse, c.normal, options.friction);
+    add_impulse(c, c.impulse, nodes, rigid);
+  }
+  for (int sweep = 0; sweep < options.sweeps; ++sweep)
+    for (std::size_t i = 0; i < rows.size(); ++i) solve(contact.contacts[i], rows[i], nodes, rigid, options.friction);
+  settle_bodies(contact, rows, nodes, rigid, options);
+  for (const Contact& c : contact.contacts) note_push(c, rigid);
+}
+
+void book_contact_losses(ContactState& contact, const NodalState& nodes, const RigidBodies& rigid) {
+  for (const Contact& c : contact.contacts) {
+    if (c.impulse.isZero(0.0)) continue;
+    const Vec3 before = side_velocity_before(c.sides[1], c.place, nodes, rigid) -
+                        side_velocity_before(c.sides[0], c.place, nodes, rigid);
+    contact.dissipated -= 0.5 * c.impulse.dot(relative_velocity(c, nodes, rigid) + before);
+  }
 }
 
 }  // namespace knap

@@ -1,108 +1,57 @@
 #include "contact/contact_pairs.hpp"
 
 #include <algorithm>
-#include <optional>
+#include <cmath>
 #include <tuple>
 
-#include "contact/broad_phase.hpp"
+#include "contact/tet_overlap.hpp"
 #include "core/parallel.hpp"
 
 namespace knap {
 namespace {
 
 constexpr Index candidates_per_block = 1024;
-// Of the gap to a tet, what the way towards it may use up until the next look; the rest is for round-off.
+// Of the gap between two tets, what their way towards each other may use up until the next look; the rest is for
+// round-off.
 constexpr double part_of_gap = 0.999;
+// A patch below this share of the square of a tet's height is a touch within round-off, without direction. A corner
+// makes such a patch at a depth of 1e-5 of the height.
+constexpr double smallest_patch = 1e-10;
+// Patches of the same two fragments nearer than this share of a tet's height belong to the same touch.
+constexpr double reach_of_touch = 0.5;
+// Where the patches of a touch cancel to less than this share of their size (a plate pierced), each stands alone.
+constexpr double least_direction = 0.1;
+// A patch wider than this share of a tet's height carries a rigid body on several points.
+constexpr double wide_patch = 0.02;
 
-bool by_point_and_tet(const Contact& a, const Contact& b) {
-  return std::tie(a.point_key, a.tet) < std::tie(b.point_key, b.tet);
-}
-
-/// Barycentric coordinates of p in a tet and their gradients [1/m].
-struct Barycentric {
-  std::array<double, 4> lambda{-1.0, -1.0, -1.0, -1.0};
-  std::array<Vec3, 4> gradient{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  // left so by an inverted tet
-
-  Barycentric(const TetCorners& nodes, std::span<const Vec4> x, const Vec3& p) {
-    const Vec3 origin = xyz(x[at(nodes[0])]);
-    const Vec3 a = xyz(x[at(nodes[1])]) - origin;
-    const Vec3 b = xyz(x[at(nodes[2])]) - origin;
-    const Vec3 c = xyz(x[at(nodes[3])]) - origin;
-    const Vec3 bc = b.cross(c);
-    const double determinant = a.dot(bc);
-    if (determinant <= 0.0) return;
-    gradient[1] = bc / determinant;
-    gradient[2] = c.cross(a) / determinant;
-    gradient[3] = a.cross(b) / determinant;
-    gradient[0] = -(gradient[1] + gradient[2] + gradient[3]);
-    const Vec3 r = p - origin;
-    for (std::size_t i = 1; i < 4; ++i) lambda[i] = gradient[i].dot(r);
-    lambda[0] = 1.0 - lambda[1] - lambda[2] - lambda[3];
-  }
-  bool inside() const {
-    return std::all_of(lambda.begin(), lambda.end(), [](double l) { return l >= 0.0; });
-  }
-  double depth(std::size_t face) const { return lambda[face] / gradient[face].norm(); }
-  /// Lower bound of the distance between point and tet [m].
-  double gap() const {
-    double largest = 0.0;
-    for (std::size_t i = 0; i < 4; ++i)
-      if (lambda[i] < 0.0 && !gradient[i].isZero(0.0)) largest = std::max(largest, -depth(i));
-    return largest;
-  }
+/// Two tets that overlap.
+struct Touch {
+  Index candidate = none;
+  std::array<Index, 2> fragments{none, none};
+  double size = 0.0;  ///< of the smaller tet: its least height [m]
+  Vec3 normal = Vec3::Zero();
+  OverlapPatch patch;
 };
 
-/// The contact of the same point and tet in the last step, if there was one.
-const Contact* last_step(const ContactState& contact, std::int64_t point_key, Index tet) {
-  Contact wanted;
-  wanted.point_key = point_key;
-  wanted.tet = tet;
-  const auto old = std::lower_bound(contact.contacts.begin(), contact.contacts.end(), wanted, by_point_and_tet);
-  return old != contact.contacts.end() && !by_point_and_tet(wanted, *old) ? &*old : nullptr;
-}
+double least_height(const TetShape& shape) { return *std::min_element(shape.height.begin(), shape.height.end()); }
 
-/// The free face nearest to the point; every candidate tet has one.
-std::size_t nearest_free_face(unsigned free_faces, const Barycentric& coordinates) {
-  std::size_t nearest = 4;
-  for (std::size_t i = 0; i < 4; ++i)
-    if ((free_faces >> i & 1u) != 0 && (nearest == 4 || coordinates.depth(i) < coordinates.depth(nearest))) nearest = i;
-  return nearest;
-}
-
-Contact touching(const ContactState& contact, const ContactCandidate& candidate, const TetCorners& nodes,
-                 const Barycentric& coordinates) {
-  const ContactPoint& point = contact.points[at(candidate.point)];
-  Contact found;
-  found.point_key = point.key;
-  found.tet = candidate.tet;
-  std::size_t face = nearest_free_face(contact.free_faces[at(candidate.tet)], coordinates);
-  if (const Contact* old = last_step(contact, point.key, candidate.tet)) {
-    found.impulse = old->impulse;
-    if (old->impulse.squaredNorm() > 0.0)
-      face = static_cast<std::size_t>(old->face);  // a lasting contact keeps its face
+// The touch of a candidate if its tets overlap; otherwise sets when to look again.
+bool narrow(const ContactState& contact, ContactCandidate& candidate, double travel, const Topology& topology,
+            std::span<const Vec4> x, Touch& touch) {
+  const auto& [first, second] = candidate.tets;
+  const TetShape a = make_tet_shape(topology.tet_nodes[at(first)], x);
+  const TetShape b = make_tet_shape(topology.tet_nodes[at(second)], x);
+  if (!a.is_solid || !b.is_solid) return false;
+  double gap = separation_by_faces(a, b);
+  if (gap == 0.0) {
+    touch.patch = overlap_patch(a, contact.free_faces[at(first)], b, contact.free_faces[at(second)]);
+    touch.size = std::min(least_height(a), least_height(b));
+    touch.fragments = candidate.fragments;
+    if (touch.patch.size > smallest_patch * touch.size * touch.size) return true;
+    gap = separation_by_edges(a, b);  // the last to be asked, because it costs most
   }
-  found.face = static_cast<std::int8_t>(face);
-  found.normal = -coordinates.gradient[face].normalized();
-  found.depth = coordinates.depth(face);
-  for (std::size_t i = 0; i < 3; ++i) {
-    found.nodes[i] = point.is_node() ? point.nodes[0] : point.nodes[i];
-    found.weights[i] = point.is_node() ? (i == 0 ? 1.0 : 0.0) : 1.0 / 3.0;
-  }
-  for (std::size_t i = 0; i < 4; ++i) {
-    found.nodes[3 + i] = nodes[i];
-    found.weights[3 + i] = -coordinates.lambda[i];
-  }
-  return found;
-}
-
-// The contact of a candidate if its point is inside; otherwise sets when to look again.
-std::optional<Contact> narrow(const ContactState& contact, ContactCandidate& candidate, const Topology& topology,
-                              std::span<const Vec4> x) {
-  const TetCorners& nodes = topology.tet_nodes[at(candidate.tet)];
-  const Barycentric coordinates(nodes, x, position(contact.points[at(candidate.point)], x));
-  if (coordinates.inside()) return touching(contact, candidate, nodes, coordinates);
-  candidate.due = contact.travel + part_of_gap * coordinates.gap();
-  return std::nullopt;
+  candidate.due = travel + part_of_gap * gap;
+  return false;
 }
 
 // The candidates of a block that must be looked at now; returns their number.
@@ -110,44 +59,177 @@ Index collect_due(const ContactState& contact, Index block, std::span<Index> due
   const Index end = std::min(to_index(contact.candidates.size()), (block + 1) * candidates_per_block);
   Index count = 0;
   for (Index i = block * candidates_per_block; i < end; ++i) {
+    const ContactCandidate& candidate = contact.candidates[at(i)];
     due[at(count)] = i;
-    count += contact.candidates[at(i)].due <= contact.travel ? 1 : 0;
+    count += candidate.due <= contact.travel[at(candidate.fragments[0])] + contact.travel[at(candidate.fragments[1])];
   }
   return count;
 }
 
-// What candidates need lies anywhere in memory: asked for ahead, first points and corners, then their positions.
-// Inlined because GCC takes a function that only prefetches for one without effect.
+// What candidates need lies anywhere in memory: asked for ahead, first corners, then their positions. Inlined because
+// GCC takes a function that only prefetches for one without effect.
 [[gnu::always_inline]] inline void prefetch_candidate(const ContactState& contact, const Topology& topology,
                                                       std::span<const Vec4> x, std::span<const Index> due, Index i) {
-  constexpr Index far = 16, near = 8;
+  constexpr Index far = 8, near = 4;
   if (i + far >= to_index(due.size())) return;
-  const ContactCandidate& later = contact.candidates[at(due[at(i + far)])];
-  __builtin_prefetch(&contact.points[at(later.point)]);
-  __builtin_prefetch(&topology.tet_nodes[at(later.tet)]);
-  const ContactCandidate& soon = contact.candidates[at(due[at(i + near)])];
-  for (const Index node : contact.points[at(soon.point)].nodes)
-    if (node != none) __builtin_prefetch(&x[at(node)]);
-  for (const Index node : topology.tet_nodes[at(soon.tet)]) __builtin_prefetch(&x[at(node)]);
+  for (const Index tet : contact.candidates[at(due[at(i + far)])].tets)
+    __builtin_prefetch(&topology.tet_nodes[at(tet)]);
+  for (const Index tet : contact.candidates[at(due[at(i + near)])].tets)
+    for (const Index node : topology.tet_nodes[at(tet)]) __builtin_prefetch(&x[at(node)]);
 }
 
-}  // namespace
-
-void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x) {
+std::vector<Touch> find_touches(ContactState& contact, const Topology& topology, std::span<const Vec4> x) {
   const Index count = to_index(contact.candidates.size());
-  std::vector<std::vector<Contact>> found(at(num_blocks(count, candidates_per_block)));
+  std::vector<std::vector<Touch>> found(at(num_blocks(count, candidates_per_block)));
   parallel_blocks(to_index(found.size()), [&](Index block) {
     std::array<Index, std::size_t{candidates_per_block}> due;
     const Index num_due = collect_due(contact, block, due);
     for (Index i = 0; i < num_due; ++i) {
       prefetch_candidate(contact, topology, x, std::span(due).first(at(num_due)), i);
-      if (const auto now = narrow(contact, contact.candidates[at(due[at(i)])], topology, x))
-        found[at(block)].push_back(*now);
+      ContactCandidate& candidate = contact.candidates[at(due[at(i)])];
+      const double travel = contact.travel[at(candidate.fragments[0])] + contact.travel[at(candidate.fragments[1])];
+      Touch touch;
+      touch.candidate = due[at(i)];
+      if (narrow(contact, candidate, travel, topology, x, touch)) found[at(block)].push_back(touch);
     }
   });
-  contact.contacts.clear();
-  for (const auto& part : found) contact.contacts.insert(contact.contacts.end(), part.begin(), part.end());
-  std::sort(contact.contacts.begin(), contact.contacts.end(), by_point_and_tet);
+  std::vector<Touch> touches;
+  for (const auto& part : found) touches.insert(touches.end(), part.begin(), part.end());
+  return touches;
+}
+
+// The patch's area as seen from the lower to the higher of its two fragments.
+Vec3 ordered_area(const Touch& touch) {
+  return touch.fragments[0] < touch.fragments[1] ? touch.patch.area : Vec3(-touch.patch.area);
+}
+
+std::array<Index, 2> ordered_fragments(const Touch& touch) {
+  return {std::min(touch.fragments[0], touch.fragments[1]), std::max(touch.fragments[0], touch.fragments[1])};
+}
+
+// A corner or an edge that goes into another fragment belongs to several tets, which each see only a part of it: the
+// direction is that of all parts together.
+void set_normals(std::span<Touch> same_fragments) {
+  for (Touch& touch : same_fragments) {
+    const double reach = reach_of_touch * touch.size;
+    Vec3 sum = Vec3::Zero();
+    double size = 0.0;
+    for (const Touch& other : same_fragments) {
+      if ((other.patch.centre - touch.patch.centre).squaredNorm() > reach * reach) continue;
+      sum += ordered_area(other);
+      size += other.patch.size;
+    }
+    if (sum.norm() < least_direction * size) sum = ordered_area(touch);
+    if (touch.fragments[0] > touch.fragments[1]) sum = -sum;
+    touch.normal = sum.norm() > 0.0 ? Vec3(sum.normalized()) : Vec3::Zero();
+  }
+}
+
+void set_all_normals(std::vector<Touch>& touches) {
+  const auto before = [](const Touch& a, const Touch& b) {
+    return std::tuple(ordered_fragments(a), a.candidate) < std::tuple(ordered_fragments(b), b.candidate);
+  };
+  std::sort(touches.begin(), touches.end(), before);
+  for (std::size_t begin = 0, end = 0; begin < touches.size(); begin = end) {
+    while (end < touches.size() && ordered_fragments(touches[end]) == ordered_fragments(touches[begin])) ++end;
+    set_normals(std::span(touches).subspan(begin, end - begin));
+  }
+}
+
+ContactSide side_of(Index tet, const Vec3& place, const Topology& topology, std::span<const Vec4> x,
+                    const RigidBodies& rigid) {
+  ContactSide side;
+  side.body = rigid.of_tet(tet);
+  if (side.body != none) return side;
+  side.nodes = topology.tet_nodes[at(tet)];
+  side.weights = make_tet_shape(side.nodes, x).coordinates(place);
+  return side;
+}
+
+/// What contacts are made of.
+struct Makings {
+  const ContactState& contact;
+  const Topology& topology;
+  std::span<const Vec4> x;
+  const RigidBodies& rigid;
+};
+
+void add_point(const Makings& from, const Touch& touch, const Vec3& place, std::vector<Contact>& contacts) {
+  Contact added;
+  added.tets = from.contact.candidates[at(touch.candidate)].tets;
+  const bool is_next = !contacts.empty() && contacts.back().tets == added.tets;
+  added.point = static_cast<std::int8_t>(is_next ? contacts.back().point + 1 : 0);
+  added.place = place;
+  added.normal = touch.normal;
+  for (std::size_t k = 0; k < 2; ++k) added.sides[k] = side_of(added.tets[k], place, from.topology, from.x, from.rigid);
+  contacts.push_back(added);
+}
+
+void add_contacts(const Makings& from, const Touch& touch, std::vector<Contact>& contacts) {
+  if (touch.normal.isZero(0.0)) return;
+  const auto& tets = from.contact.candidates[at(touch.candidate)].tets;
+  const bool carries_body = from.rigid.of_tet(tets[0]) != none || from.rigid.of_tet(tets[1]) != none;
+  const auto& corners = touch.patch.corners;
+  const double width = (corners[1] - corners[0]).norm();
+  if (carries_body && width > wide_patch * touch.size) {
+    for (const Vec3& corner : corners) add_point(from, touch, corner, contacts);
+  } else {
+    add_point(from, touch, touch.patch.centre, contacts);
+  }
+}
+
+// The vector turned like the old normal into the new one.
+Vec3 turned(const Vec3& vector, const Vec3& old_normal, const Vec3& new_normal) {
+  return Eigen::Quaterniond::FromTwoVectors(old_normal, new_normal) * vector;
+}
+
+// Each new point of a pair takes the impulse of the nearest old one that no other has taken.
+void take_impulses(std::span<const Contact> old, std::span<Contact> now) {
+  std::array<bool, 3> taken{};
+  for (Contact& contact : now) {
+    std::size_t nearest = old.size();
+    for (std::size_t k = 0; k < old.size(); ++k) {
+      if (taken[k]) continue;
+      if (nearest == old.size() ||
+          (old[k].place - contact.place).squaredNorm() < (old[nearest].place - contact.place).squaredNorm())
+        nearest = k;
+    }
+    if (nearest == old.size()) return;
+    taken[nearest] = true;
+    if (old[nearest].impulse.squaredNorm() > 0.0)
+      contact.impulse = turned(old[nearest].impulse, old[nearest].normal, contact.normal);
+  }
+}
+
+std::size_t end_of_pair(const std::vector<Contact>& contacts, std::size_t begin) {
+  std::size_t end = begin;
+  while (end < contacts.size() && contacts[end].tets == contacts[begin].tets) ++end;
+  return end;
+}
+
+// Both lists are sorted by pair.
+void keep_impulses(const std::vector<Contact>& old, std::vector<Contact>& now) {
+  for (std::size_t i = 0, k = 0; i < now.size();) {
+    const std::size_t end = end_of_pair(now, i);
+    while (k < old.size() && old[k].tets < now[i].tets) ++k;
+    if (k < old.size() && old[k].tets == now[i].tets)
+      take_impulses(std::span(old).subspan(k, end_of_pair(old, k) - k), std::span(now).subspan(i, end - i));
+    i = end;
+  }
+}
+
+}  // namespace
+
+void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
+                      const RigidBodies& rigid) {
+  std::vector<Touch> touches = find_touches(contact, topology, x);
+  set_all_normals(touches);
+  std::vector<Contact> contacts;
+  for (const Touch& touch : touches) add_contacts({contact, topology, x, rigid}, touch, contacts);
+  std::stable_sort(contacts.begin(), contacts.end(),
+                   [](const Contact& a, const Contact& b) { return a.tets < b.tets; });
+  keep_impulses(contact.contacts, contacts);
+  contact.contacts = std::move(contacts);
 }
 
 }  // namespace knap

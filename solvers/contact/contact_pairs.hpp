@@ -1,12 +1,14 @@
 #pragma once
-#include <span>
-
 #include "contact/contact_state.hpp"
+#include "core/rigid_bodies.hpp"
+#include "core/topology.hpp"
 
 namespace knap {
 
-/// Updates contact.contacts: the candidates whose point is inside its tet now. Only those are looked at that may have
-/// met by contact.travel. A contact that goes on keeps its impulse and the face it went in by.
-void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x);
+/// Updates contact.contacts: the points of those candidates that overlap now. Only candidates are looked at whose
+/// fragments may have met by their travel. Two deformable tets share one point, a rigid body and another up to three,
+/// to rest on. A contact that goes on keeps its impulse, turned with its normal.
+void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
+                      const RigidBodies& rigid);
 
 }  // namespace knap

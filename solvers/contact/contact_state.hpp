@@ -1,46 +1,48 @@
 #pragma once
-// Contact between different fragments: points of one (surface nodes, centres of free faces) against tets of another
-// that have a free face. Impulses act at one point shared by both bodies, so momenta are kept to round-off.
-#include "core/topology.hpp"
+// Contact between different fragments: pairs of tets with a free face that overlap. Impulses act at points shared by
+// both bodies, so momenta are kept to round-off.
+#include <span>
+
+#include "core/csr.hpp"
+#include "core/types.hpp"
 
 namespace knap {
 
-/// A free face of a tet, by the local index of the opposite corner, or a single node: what can touch a tet.
-struct ContactPoint {
-  std::array<Index, 3> nodes{none, none, none};  ///< one node (the others none), or the corners of a free face
-  std::int64_t key = 0;                          ///< node, or num_nodes-independent id of the face: -(corner + 1)
-  Index fragment = none;
-
-  bool is_node() const { return nodes[1] == none; }
-};
-
-/// A point and a tet that may meet before the next rebuild.
+/// Two tets of different fragments that may meet before the next rebuild.
 struct ContactCandidate {
-  Index point = none;
-  Index tet = none;
-  double due = 0.0;  ///< ContactState::travel from which on they may touch [m]
+  std::array<Index, 2> tets{none, none};  ///< ascending
+  std::array<Index, 2> fragments{none, none};
+  double due = 0.0;  ///< travel of both fragments together from which on they may touch [m]
 };
 
-/// A point inside a foreign tet.
+/// One body's part of a contact: a rigid body, or the four nodes of a tet with the barycentric weights of the point.
+struct ContactSide {
+  Index body = none;
+  TetCorners nodes{none, none, none, none};
+  std::array<double, 4> weights{};
+};
+
+/// A point shared by two overlapping tets.
 struct Contact {
-  std::int64_t point_key = 0;
-  Index tet = none;
-  std::int8_t face = 0;             ///< local index of the free face it went in by
-  Vec3 impulse = Vec3::Zero();      ///< on the point [N s]
-  Vec3 normal = Vec3::Zero();       ///< of that face, outwards
-  std::array<Index, 7> nodes{};     ///< three of the point, four of the tet
-  std::array<double, 7> weights{};  ///< relative velocity = sum of weight x velocity
-  double depth = 0.0;               ///< [m]
+  std::array<Index, 2> tets{none, none};
+  std::int8_t point = 0;        ///< number among the points of this pair
+  Vec3 place = Vec3::Zero();    ///< [m]
+  Vec3 normal = Vec3::Zero();   ///< unit, from the first tet to the second
+  Vec3 impulse = Vec3::Zero();  ///< on the second side, the opposite on the first [N s]
+  std::array<ContactSide, 2> sides{};
 };
 
+/// Everything but scratch is persistent.
 struct ContactState {
-  std::vector<Index> fragment_of_tet;    ///< strict labels, as of the last rebuild
-  std::vector<std::uint8_t> free_faces;  ///< per tet, bit i = face opposite corner i, as of the last rebuild
-  std::vector<ContactPoint> points;
-  std::vector<ContactCandidate> candidates;  ///< by tet
-  std::vector<Contact> contacts;             ///< by point and tet
-  double travel = 0.0;                       ///< no two nodes have come nearer than by this since the last rebuild [m]
-  double skin = 0.0;                         ///< candidates are complete for a travel up to this [m]
+  std::vector<Index> fragment_of_tet;        ///< strict labels, as of the last rebuild
+  std::vector<std::uint8_t> free_faces;      ///< per tet, bit i = face opposite corner i, as of the last rebuild
+  Csr surface_nodes;                         ///< fragment -> nodes of its tets with free faces
+  std::vector<double> travel;                ///< per fragment, bound of its way since the last rebuild [m]
+  std::vector<double> margin;                ///< per fragment, way up to which the candidates are complete [m]
+  std::vector<ContactCandidate> candidates;  ///< by first tet
+  std::vector<Contact> contacts;             ///< by tets and point
+  Vec3 frame_velocity = Vec3::Zero();        ///< ways are measured in a frame that moves with it [m/s]
+  double skin = 0.0;                         ///< least margin [m]
   double dissipated = 0.0;                   ///< since the start [J]
   Index fragments = 1;                       ///< number of strict fragments at the last rebuild
 };

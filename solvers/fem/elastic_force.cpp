@@ -1,19 +1,12 @@
 #include "fem/elastic_force.hpp"
 
-#include <fmt/format.h>
+#include <algorithm>
 
-#include "core/errors.hpp"
 #include "core/parallel.hpp"
-#include "fem/tet_reference.hpp"
+#include "fem/element_lanes.hpp"
 
 namespace knap {
 namespace {
-
-constexpr std::array<std::array<int, 2>, 6> symmetric_entries{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {2, 0}, {0, 1}}};
-
-void store(const Mat3& symmetric, SymmetricLanes& s, Index lane) {
-  for (std::size_t i = 0; i < 6; ++i) s[i][at(lane)] = symmetric(symmetric_entries[i][0], symmetric_entries[i][1]);
-}
 
 KernelCoefficients coefficients(const Material& material, double decay) {
   const Lame l = material.small_strain();
@@ -21,21 +14,25 @@ KernelCoefficients coefficients(const Material& material, double decay) {
   return {l.mu, l.lambda + l.mu, 6.0 * ratio * l.lambda / (l.mu * l.mu), 12.0 * ratio / l.mu, decay};
 }
 
-BlockView view(const ElasticForce& elastic, BranchGroup* branch, Index b, std::span<const Vec4> x) {
-  const ElementBlock& block = elastic.blocks.blocks[at(b)];
-  return {elastic.groups.data() + block.first_group, branch ? branch + block.first_group : nullptr,
-          elastic.blocks.corners.data() + block.first_group * lanes, &block, x.data()->data()};
+// By material.
+std::vector<KernelCoefficients> coefficients(const ElasticForce& elastic, double dt) {
+  std::vector<KernelCoefficients> all;
+  for (const Material& material : elastic.materials)
+    all.push_back(coefficients(material, material.branch.half_step_decay(dt)));
+  return all;
 }
 
-// Fills one lane from a tet's reference state.
-void set_element(ElasticForce& elastic, Index group, Index lane, const TetReference& tet) {
-  const double mu = elastic.material.small_strain().mu;
-  const Mat3 inverse_metric = tet.inverse_edges * tet.inverse_edges.transpose();
-  store(-mu * tet.volume * inverse_metric, elastic.groups[at(group)].stiffness, lane);
-  elastic.groups[at(group)].inverse_six_volume[at(lane)] = 1.0 / (6.0 * tet.volume);
-  if (!elastic.material.branch.is_active()) return;
-  const Mat3 edges = tet.inverse_edges.inverse();
-  store(edges.transpose() * edges, elastic.branch.groups[at(group)].relaxed_metric, lane);
+// The energy and stress sweeps only read the branch.
+BranchGroup* branch_groups(const ElasticForce& elastic) {
+  return elastic.branch.groups.empty() ? nullptr : const_cast<BranchGroup*>(elastic.branch.groups.data());
+}
+
+BlockView view(const ElasticForce& elastic, Index b, std::span<const Vec4> x) {
+  const ElementBlock& block = elastic.blocks.blocks[at(b)];
+  BranchGroup* branch =
+      elastic.materials[at(block.material)].branch.is_active() ? branch_groups(elastic) + block.first_group : nullptr;
+  return {elastic.groups.data() + block.first_group, branch, elastic.blocks.corners.data() + block.first_group * lanes,
+          &block, x.data()->data()};
 }
 
 void sum_interface(const ElasticForce& elastic, std::span<Vec4> f) {
@@ -48,35 +45,42 @@ void sum_interface(const ElasticForce& elastic, std::span<Vec4> f) {
   });
 }
 
-void book_branch(BranchState& branch, double decay, double stored) {
-  const double kept = decay * decay;
-  branch.dissipated += branch.pending + (1.0 / kept - 1.0) * stored;
-  branch.pending = (1.0 - kept) * stored;
+void book_branch(ElasticForce& elastic, double dt, std::span<const double> stored_of_block) {
+  std::vector<double> stored_of_material(elastic.materials.size(), 0.0);
+  for (std::size_t b = 0; b < stored_of_block.size(); ++b)
+    stored_of_material[at(elastic.blocks.blocks[b].material)] += stored_of_block[b];
+  double stored = 0.0, lost_before = 0.0, lost_after = 0.0;
+  for (std::size_t m = 0; m < stored_of_material.size(); ++m) {
+    const double decay = elastic.materials[m].branch.half_step_decay(dt), kept = decay * decay;
+    stored += stored_of_material[m];
+    lost_before += (1.0 / kept - 1.0) * stored_of_material[m];
+    lost_after += (1.0 - kept) * stored_of_material[m];
+  }
+  BranchState& branch = elastic.branch;
+  branch.dissipated += branch.pending + lost_before;
+  branch.pending = lost_after;
   branch.stored = stored;
-  branch.decay = decay;
+  branch.dt = dt;
 }
 
 }  // namespace
 
 ElasticForce make_elastic_force(const Topology& topology, std::span<const Vec3> reference_positions,
-                                const Material& material) {
+                                std::span<const Material> materials, std::span<const Index> material_of_tet) {
   ElasticForce elastic;
-  elastic.material = material;
-  elastic.blocks = make_element_blocks(topology);
+  elastic.materials.assign(materials.begin(), materials.end());
+  elastic.blocks = make_element_blocks(topology, material_of_tet);
   elastic.groups.resize(at(elastic.blocks.num_groups));
-  if (material.branch.is_active()) elastic.branch.groups.resize(at(elastic.blocks.num_groups));
+  const auto has_branch = [](const Material& material) { return material.branch.is_active(); };
+  if (std::any_of(materials.begin(), materials.end(), has_branch))
+    elastic.branch.groups.resize(at(elastic.blocks.num_groups));
   elastic.stress.resize(at(topology.num_tets()));
   elastic.stress_bound.resize(at(topology.num_tets()));
   elastic.interface_forces.resize(at(elastic.blocks.num_slots));
-  for (const ElementBlock& block : elastic.blocks.blocks)
-    for (Index group = 0; group < block.num_groups; ++group)
-      for (Index lane = 0; lane < lanes; ++lane) {
-        const Index t = tet_of_lane(block, group, lane);
-        if (t == none) continue;
-        const TetReference tet = make_tet_reference(reference_positions, topology.tet_vertices[at(t)]);
-        if (!(tet.volume > 0.0)) throw InputError(fmt::format("mesh: tet {} has volume {} m3", t, tet.volume));
-        set_element(elastic, block.first_group + group, lane, tet);
-      }
+  for (const ElementBlock& block : elastic.blocks.blocks) {
+    fill_groups(elastic, topology, reference_positions, block);
+    relax_fully(elastic, topology, reference_positions, block);
+  }
   return elastic;
 }
 
@@ -86,23 +90,23 @@ void refresh_elastic_force(ElasticForce& elastic, const Topology& topology, std:
 }
 
 void update_elastic_forces(ElasticForce& elastic, std::span<const Vec4> x, std::span<Vec4> f, double dt) {
-  const double decay = elastic.material.branch.half_step_decay(dt);
-  const KernelCoefficients k = coefficients(elastic.material, decay);
-  BranchGroup* branch = elastic.branch.groups.empty() ? nullptr : elastic.branch.groups.data();
+  const auto k = coefficients(elastic, dt);
   double* slots = elastic.interface_forces.empty() ? nullptr : elastic.interface_forces.data()->data();
-  const double stored = ordered_sum<double>(
-      to_index(elastic.blocks.blocks.size()),
-      [&](Index b) { return add_block_forces(view(elastic, branch, b, x), k, f.data()->data(), slots); }, 1);
+  const std::vector<ElementBlock>& blocks = elastic.blocks.blocks;
+  std::vector<double> stored(blocks.size());
+  parallel_blocks(to_index(blocks.size()), [&](Index b) {
+    stored[at(b)] = add_block_forces(view(elastic, b, x), k[at(blocks[at(b)].material)], f.data()->data(), slots);
+  });
   sum_interface(elastic, f);
-  if (branch) book_branch(elastic.branch, decay, stored);
+  if (branch_groups(elastic)) book_branch(elastic, dt, stored);
 }
 
 BulkState bulk_state(const ElasticForce& elastic, std::span<const Vec4> x) {
-  const KernelCoefficients k = coefficients(elastic.material, elastic.branch.decay);
-  // The energy sweep only reads the branch.
-  auto* branch = elastic.branch.groups.empty() ? nullptr : const_cast<BranchGroup*>(elastic.branch.groups.data());
+  const auto k = coefficients(elastic, elastic.branch.dt);
+  const std::vector<ElementBlock>& blocks = elastic.blocks.blocks;
   return ordered_sum<BulkState>(
-      to_index(elastic.blocks.blocks.size()), [&](Index b) { return block_state(view(elastic, branch, b, x), k); }, 1);
+      to_index(blocks.size()), [&](Index b) { return block_state(view(elastic, b, x), k[at(blocks[at(b)].material)]); },
+      1);
 }
 
 double strain_energy(const ElasticForce& elastic, std::span<const Vec4> x) {
@@ -110,10 +114,11 @@ double strain_energy(const ElasticForce& elastic, std::span<const Vec4> x) {
 }
 
 void update_stress(ElasticForce& elastic, std::span<const Vec4> x) {
-  const KernelCoefficients k = coefficients(elastic.material, elastic.branch.decay);
-  BranchGroup* branch = elastic.branch.groups.empty() ? nullptr : elastic.branch.groups.data();
-  parallel_blocks(to_index(elastic.blocks.blocks.size()), [&](Index b) {
-    store_block_stress(view(elastic, branch, b, x), k, elastic.stress.data(), elastic.stress_bound.data());
+  const auto k = coefficients(elastic, elastic.branch.dt);
+  const std::vector<ElementBlock>& blocks = elastic.blocks.blocks;
+  parallel_blocks(to_index(blocks.size()), [&](Index b) {
+    store_block_stress(view(elastic, b, x), k[at(blocks[at(b)].material)], elastic.stress.data(),
+                       elastic.stress_bound.data());
   });
 }
 

@@ -9,7 +9,7 @@ namespace {
 void list_nodes(ElementBlocks& blocks, ElementBlock& block, const Topology& topology) {
   for (const Index node : block.nodes) --blocks.num_blocks_of_node[at(node)];
   block.nodes.clear();
-  for (Index t = block.first_tet; t < block.first_tet + block.num_tets; ++t)
+  for (const Index t : block.tets)
     for (const Index node : topology.tet_nodes[at(t)])
       if (blocks.row_of_node[at(node)] == none) {
         blocks.row_of_node[at(node)] = 0;
@@ -65,15 +65,18 @@ void list_interface(ElementBlocks& blocks, Index num_nodes) {
   blocks.slots_of_interface = make_csr(to_index(blocks.interface_nodes.size()), row_of_slot);
 }
 
-void rebuild(ElementBlocks& blocks, const Topology& topology, std::vector<char>& touched) {
-  blocks.num_blocks_of_node.resize(at(topology.num_nodes()), 0);
-  blocks.row_of_node.resize(at(topology.num_nodes()), none);
-  for (std::size_t b = 0; b < touched.size(); ++b)
-    if (touched[b]) list_nodes(blocks, blocks.blocks[b], topology);
-  for (std::size_t b = 0; b < touched.size(); ++b)
-    if (touched[b] || has_shared_node_among_private(blocks, blocks.blocks[b]))
-      number_nodes(blocks, blocks.blocks[b], topology);
-  list_interface(blocks, topology.num_nodes());
+// Blocks of the tets of one material.
+void add_blocks(ElementBlocks& blocks, Index material, std::span<const Index> tets, Index size) {
+  for (Index first = 0; first < to_index(tets.size()); first += size) {
+    const auto own = tets.subspan(at(first), std::min(at(size), tets.size() - at(first)));
+    ElementBlock block;
+    block.material = material;
+    set_tets(block, {own.begin(), own.end()});
+    block.first_group = blocks.num_groups;
+    blocks.num_groups += block.num_groups;
+    for (const Index t : own) blocks.block_of_tet[at(t)] = to_index(blocks.blocks.size());
+    blocks.blocks.push_back(std::move(block));
+  }
 }
 
 }  // namespace
@@ -84,28 +87,51 @@ Index block_size(Index num_tets) {
   return size / lanes * lanes;
 }
 
-ElementBlocks make_element_blocks(const Topology& topology) {
-  ElementBlocks blocks;
-  const Index size = block_size(topology.num_tets());
-  for (Index first = 0; first < topology.num_tets(); first += size) {
-    ElementBlock block;
-    block.first_tet = first;
-    block.num_tets = std::min(size, topology.num_tets() - first);
-    block.first_group = blocks.num_groups;
-    block.num_groups = (block.num_tets + lanes - 1) / lanes;
-    blocks.num_groups += block.num_groups;
-    blocks.blocks.push_back(std::move(block));
+void set_tets(ElementBlock& block, std::vector<Index> tets) {
+  block.num_tets = to_index(tets.size());
+  block.num_groups = (block.num_tets + lanes - 1) / lanes;
+  const bool consecutive = !tets.empty() && tets.back() - tets.front() + 1 == block.num_tets;
+  block.first_tet = consecutive ? tets.front() : none;
+  block.tets = std::move(tets);
+}
+
+ElementBlocks make_element_blocks(const Topology& topology, std::span<const Index> material_of_tet) {
+  const auto material = [&](Index t) { return material_of_tet.empty() ? 0 : material_of_tet[at(t)]; };
+  std::vector<std::vector<Index>> tets_of_material(1);
+  for (Index t = 0; t < topology.num_tets(); ++t) {
+    if (material(t) >= to_index(tets_of_material.size())) tets_of_material.resize(at(material(t)) + 1);
+    tets_of_material[at(material(t))].push_back(t);
   }
+  ElementBlocks blocks;
+  blocks.block_of_tet.resize(at(topology.num_tets()));
+  for (std::size_t m = 0; m < tets_of_material.size(); ++m)
+    add_blocks(blocks, to_index(m), tets_of_material[m], block_size(topology.num_tets()));
   blocks.corners.resize(at(blocks.num_groups * lanes));
-  std::vector<char> touched(blocks.blocks.size(), 1);
-  rebuild(blocks, topology, touched);
+  refresh_marked_blocks(blocks, topology, std::vector<std::uint8_t>(blocks.blocks.size(), 1));
   return blocks;
 }
 
 void refresh_blocks(ElementBlocks& blocks, const Topology& topology, std::span<const Index> changed_tets) {
-  std::vector<char> touched(blocks.blocks.size(), 0);
-  for (const Index tet : changed_tets) touched[at(block_of_tet(blocks, tet))] = 1;
-  rebuild(blocks, topology, touched);
+  std::vector<std::uint8_t> changed(blocks.blocks.size(), 0);
+  for (const Index tet : changed_tets) changed[at(blocks.block_of_tet[at(tet)])] = 1;
+  refresh_marked_blocks(blocks, topology, changed);
+}
+
+void refresh_marked_blocks(ElementBlocks& blocks, const Topology& topology, std::span<const std::uint8_t> changed) {
+  blocks.num_blocks_of_node.resize(at(topology.num_nodes()), 0);
+  blocks.row_of_node.resize(at(topology.num_nodes()), none);
+  for (std::size_t b = 0; b < changed.size(); ++b)
+    if (changed[b]) list_nodes(blocks, blocks.blocks[b], topology);
+  for (std::size_t b = 0; b < changed.size(); ++b)
+    if (changed[b] || has_shared_node_among_private(blocks, blocks.blocks[b]))
+      number_nodes(blocks, blocks.blocks[b], topology);
+  list_interface(blocks, topology.num_nodes());
+}
+
+std::vector<std::vector<Index>> tets_by_block(const ElementBlocks& blocks, std::span<const Index> tets) {
+  std::vector<std::vector<Index>> lists(blocks.blocks.size());
+  for (const Index t : tets) lists[at(blocks.block_of_tet[at(t)])].push_back(t);
+  return lists;
 }
 
 }  // namespace knap

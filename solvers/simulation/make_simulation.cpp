@@ -86,6 +86,8 @@ Simulation make_simulation(const SimulationOptions& options, const TetMesh& mesh
   s.contact.fragment_of_tet.assign(mesh.tets.size(), 0);
   s.contact.skin = skin_over_edge * reference.mean_edge;
 
+  s.tools = make_tools(options.tools, s.clock.dt);
+
   reference.start = momentum(s.nodes);
   reference.incident_energy = kinetic_energy(s.nodes);
   s.ledger.reference = reference.incident_energy;

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "cohesive/linear_softening.hpp"
-#include "contact/plane.hpp"
+#include "loading/tool_options.hpp"
 
 namespace knap {
 
@@ -24,7 +24,7 @@ struct SimulationOptions {
   double viscous_ratio = 0.0;    ///< of the viscoelastic branch [-]
   double relaxation_time = 0.0;  ///< of that branch [s]
   std::optional<FractureOptions> fracture{};
-  std::optional<Plane> wall{};
+  std::vector<ToolOptions> tools{};
   Vec3 velocity = Vec3::Zero();  ///< of the whole particle at the start [m/s]
   Vec3 spin = Vec3::Zero();      ///< about its mass centre [rad/s]
   double step_safety = 0.5;      ///< time step over the nodal stability bound

@@ -4,11 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numeric>
 #include <tuple>
 
 #include "core/errors.hpp"
 #include "core/hash.hpp"
+#include "fem/sleeping_tets.hpp"
 
 namespace knap {
 namespace {
@@ -35,43 +37,49 @@ constexpr auto fields(const CrackFace*) {
                     Field{"couple", &CrackFace::couple},
                     Field{"carried_couple", &CrackFace::carried_couple},
                     Field{"area", &CrackFace::area},
-                    Field{"failed", &CrackFace::failed}};
+                    Field{"failed", &CrackFace::failed},
+                    Field{"sleeps", &CrackFace::sleeps}};
 }
 constexpr auto fields(const CrackLosses*) {
   return std::tuple{Field{"cohesive", &CrackLosses::cohesive}, Field{"closure", &CrackLosses::closure},
                     Field{"friction", &CrackLosses::friction}, Field{"cohesive_shear", &CrackLosses::cohesive_shear}};
 }
-constexpr auto fields(const ContactPoint*) {
-  return std::tuple{Field{"nodes", &ContactPoint::nodes}, Field{"key", &ContactPoint::key},
-                    Field{"fragment", &ContactPoint::fragment}};
-}
 constexpr auto fields(const ContactCandidate*) {
-  return std::tuple{Field{"point", &ContactCandidate::point}, Field{"tet", &ContactCandidate::tet},
+  return std::tuple{Field{"tets", &ContactCandidate::tets}, Field{"fragments", &ContactCandidate::fragments},
                     Field{"due", &ContactCandidate::due}};
 }
+// Its sides follow from the positions before they are used again; what is kept is what the next step starts from.
 constexpr auto fields(const Contact*) {
-  return std::tuple{Field{"point_key", &Contact::point_key}, Field{"tet", &Contact::tet},
-                    Field{"face", &Contact::face},           Field{"impulse", &Contact::impulse},
-                    Field{"normal", &Contact::normal},       Field{"nodes", &Contact::nodes},
-                    Field{"weights", &Contact::weights},     Field{"depth", &Contact::depth}};
+  return std::tuple{Field{"tets", &Contact::tets}, Field{"point", &Contact::point}, Field{"place", &Contact::place},
+                    Field{"normal", &Contact::normal}, Field{"impulse", &Contact::impulse}};
 }
 constexpr auto fields(const BranchState*) {
-  return std::tuple{Field{"decay", &BranchState::decay}, Field{"stored", &BranchState::stored},
+  return std::tuple{Field{"dt", &BranchState::dt}, Field{"stored", &BranchState::stored},
                     Field{"pending", &BranchState::pending}, Field{"dissipated", &BranchState::dissipated}};
 }
 constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
-constexpr auto fields(const ToolAction*) {
-  return std::tuple{Field{"impulse", &ToolAction::impulse}, Field{"moment", &ToolAction::moment},
-                    Field{"friction_loss", &ToolAction::friction_loss}, Field{"impact_loss", &ToolAction::impact_loss}};
+constexpr auto fields(const ToolState*) {
+  return std::tuple{Field{"position", &ToolState::position},
+                    Field{"orientation", &ToolState::orientation},
+                    Field{"velocity", &ToolState::velocity},
+                    Field{"spin", &ToolState::spin},
+                    Field{"velocity_before", &ToolState::velocity_before},
+                    Field{"spin_before", &ToolState::spin_before},
+                    Field{"impulse", &ToolState::impulse},
+                    Field{"angular_impulse", &ToolState::angular_impulse},
+                    Field{"moment", &ToolState::moment},
+                    Field{"work", &ToolState::work},
+                    Field{"friction_loss", &ToolState::friction_loss},
+                    Field{"impact_loss", &ToolState::impact_loss},
+                    Field{"max_force", &ToolState::max_force},
+                    Field{"first_step", &ToolState::first_step},
+                    Field{"last_step", &ToolState::last_step}};
 }
 constexpr auto fields(const RunTotals*) {
   return std::tuple{Field{"mass_scaling_energy", &RunTotals::mass_scaling_energy},
                     Field{"added_mass", &RunTotals::added_mass},
                     Field{"added_linear", &RunTotals::added_linear},
                     Field{"added_angular", &RunTotals::added_angular},
-                    Field{"max_wall_force", &RunTotals::max_wall_force},
-                    Field{"last_wall_step", &RunTotals::last_wall_step},
-                    Field{"first_wall_step", &RunTotals::first_wall_step},
                     Field{"last_contact_step", &RunTotals::last_contact_step},
                     Field{"smallest_volume_ratio", &RunTotals::smallest_volume_ratio},
                     Field{"inserted_facets", &RunTotals::inserted_facets},
@@ -101,9 +109,9 @@ struct Layout<Eigen::Matrix<double, n, 1>> {
 };
 
 template <>
-struct Layout<BranchGroup> {
+struct Layout<Eigen::Quaterniond> {
   using Scalar = double;
-  static constexpr std::size_t count = sizeof(BranchGroup) / sizeof(double);
+  static constexpr std::size_t count = 4;
 };
 
 template <class Member>
@@ -197,6 +205,16 @@ void visit_single(Visitor& visit, const std::string& name, Struct& value) {
   if constexpr (!std::is_const_v<Struct>) value = one.at(0);
 }
 
+// The number of tools is the case's.
+template <class Visitor, class Tools>
+void visit_tools(Visitor& visit, Tools& tools) {
+  std::vector<ToolState> states;
+  for (const Tool& tool : tools) states.push_back(tool.state);
+  visit.structs("tools", states);
+  if constexpr (!std::is_const_v<Tools>)
+    for (std::size_t k = 0; k < tools.size(); ++k) tools[k].state = states.at(k);
+}
+
 /// The list.
 template <class Visitor, class Run>
 void visit_persistent(Visitor visit, Run& s) {
@@ -211,14 +229,16 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.plain("cracks.vertices", s.cracks.vertices);
   visit.plain("contact.fragment_of_tet", s.contact.fragment_of_tet);
   visit.plain("contact.free_faces", s.contact.free_faces);
-  visit.structs("contact.points", s.contact.points);
+  visit.plain("contact.surface_nodes.offsets", s.contact.surface_nodes.offsets);
+  visit.plain("contact.surface_nodes.items", s.contact.surface_nodes.items);
+  visit.plain("contact.travel", s.contact.travel);
+  visit.plain("contact.margin", s.contact.margin);
   visit.structs("contact.candidates", s.contact.candidates);
   visit.structs("contact.contacts", s.contact.contacts);
-  visit.plain("branch.groups", s.elastic.branch.groups);
   visit_single(visit, "branch", s.elastic.branch);
   visit_single(visit, "clock", s.clock);
   visit_single(visit, "totals", s.totals);
-  visit_single(visit, "wall", s.totals.wall);
+  visit_tools(visit, s.tools);
   visit_single(visit, "ledger", s.ledger);
   visit_single(visit, "last_good_ledger", s.last_good_ledger);
 }
@@ -234,10 +254,23 @@ std::string case_hash(const Simulation& s) {
   const CohesiveLaw law = o.fracture ? o.fracture->law : CohesiveLaw{};
   hash.add(std::vector{o.young_modulus, o.poisson_ratio, o.density, o.viscous_ratio, o.relaxation_time, o.step_safety,
                        law.beta, law.kappa, law.internal_friction, law.sliding_friction,
-                       static_cast<double>(law.softening_friction), o.wall ? o.wall->friction : -1.0, o.velocity.x(),
-                       o.velocity.y(), o.velocity.z(), o.spin.x(), o.spin.y(), o.spin.z()});
+                       static_cast<double>(law.softening_friction), o.velocity.x(), o.velocity.y(), o.velocity.z(),
+                       o.spin.x(), o.spin.y(), o.spin.z()});
+  for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
   hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
   return hash.hex();
+}
+
+void restore_bulk(Simulation& s, const Reader& reader) {
+  std::vector<Index> asleep, active, all_tets(at(s.topology.num_tets()));
+  std::iota(all_tets.begin(), all_tets.end(), 0);
+  reader.plain("bulk.sleeping_tets", asleep);
+  std::set_difference(all_tets.begin(), all_tets.end(), asleep.begin(), asleep.end(), std::back_inserter(active));
+  refresh_elastic_force(s.elastic, s.topology, all_tets);
+  set_active_tets(s.elastic, s.topology, s.reference.vertices, active);
+  std::vector<std::array<double, 6>> metrics;
+  reader.plain("branch.relaxed_metric", metrics);
+  set_relaxed_metrics(s.elastic, metrics);
 }
 
 }  // namespace
@@ -245,8 +278,13 @@ std::string case_hash(const Simulation& s) {
 Checkpoint make_checkpoint(const Simulation& s) {
   Checkpoint checkpoint;
   visit_persistent(Writer{checkpoint}, s);
-  checkpoint.doubles["scalars"] = {s.cracks.cracked_area, static_cast<double>(s.cracks.last_damage_step),
-                                   s.contact.dissipated, static_cast<double>(s.contact.fragments), s.contact.travel};
+  checkpoint.doubles["scalars"] = {s.cracks.cracked_area,        static_cast<double>(s.cracks.last_damage_step),
+                                   s.contact.dissipated,         static_cast<double>(s.contact.fragments),
+                                   s.contact.frame_velocity.x(), s.contact.frame_velocity.y(),
+                                   s.contact.frame_velocity.z()};
+  Writer writer{checkpoint};
+  writer.plain("bulk.sleeping_tets", sleeping_tets(s.elastic));
+  writer.plain("branch.relaxed_metric", relaxed_metrics(s.elastic));
   checkpoint.texts["case"] = case_hash(s);
   return checkpoint;
 }
@@ -263,13 +301,12 @@ void restore_checkpoint(Simulation& s, const Checkpoint& checkpoint) {
   s.cracks.last_damage_step = static_cast<std::int64_t>(scalars.at(1));
   s.contact.dissipated = scalars.at(2);
   s.contact.fragments = static_cast<Index>(scalars.at(3));
-  s.contact.travel = scalars.at(4);
+  s.contact.frame_velocity = {scalars.at(4), scalars.at(5), scalars.at(6)};
   for (Index slot = 0; slot < to_index(s.cracks.faces.size()); ++slot)
     s.cracks.face_of_facet[at(s.cracks.faces[at(slot)].facet)] = slot;
+  list_awake_faces(s.cracks);
   group_records(s.cracks);
-  std::vector<Index> all_tets(at(s.topology.num_tets()));
-  std::iota(all_tets.begin(), all_tets.end(), 0);
-  refresh_elastic_force(s.elastic, s.topology, all_tets);
+  restore_bulk(s, reader);
 }
 
 std::string state_hash(const Simulation& s) {

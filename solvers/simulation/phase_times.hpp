@@ -13,7 +13,7 @@ enum class Phase {
   ContactDetection,
   VertexImpulses,
   ContactImpulses,
-  Wall,
+  Tools,
   Booking,
   Ledger,
   Motion,
@@ -24,7 +24,7 @@ inline constexpr std::size_t num_phases = static_cast<std::size_t>(Phase::Count)
 
 inline std::string_view name(Phase phase) {
   constexpr std::array<std::string_view, num_phases> names{
-      "insertion", "bulk_forces", "crack_faces", "contact_detection", "vertex_impulses", "contact_impulses", "wall",
+      "insertion", "bulk_forces", "crack_faces", "contact_detection", "vertex_impulses", "contact_impulses", "tools",
       "booking",   "ledger",      "motion"};
   return names[static_cast<std::size_t>(phase)];
 }

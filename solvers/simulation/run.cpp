@@ -1,5 +1,6 @@
 #include "simulation/run.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "simulation/step.hpp"
@@ -22,12 +23,13 @@ void notice_damage(Simulation& s) {
   s.cracks.last_damage_step = s.clock.step;
 }
 
-// Nothing inserted or noticeably damaged, no contact with the wall or between fragments, for the quiet time; and the
+// Nothing inserted or noticeably damaged, no contact with a tool or between fragments, for the quiet time; and the
 // impact is over.
 bool is_at_rest(const Simulation& s, const RunLimits& limits) {
-  if (s.options.wall && s.totals.first_wall_step < 0) return false;
+  if (!has_touched_a_tool(s)) return false;
   const std::int64_t quiet_steps = static_cast<std::int64_t>(limits.quiet_time / s.clock.dt);
-  const std::int64_t last = std::max({s.cracks.last_damage_step, s.totals.last_wall_step, s.totals.last_contact_step});
+  std::int64_t last = std::max(s.cracks.last_damage_step, s.totals.last_contact_step);
+  for (const Tool& tool : s.tools) last = std::max(last, tool.state.last_step);
   return s.clock.step - last > quiet_steps;
 }
 
@@ -37,6 +39,11 @@ void show(const Simulation& s, std::span<Observer* const> observers, bool all) {
 }
 
 }  // namespace
+
+bool has_touched_a_tool(const Simulation& s) {
+  const auto touched = [](const Tool& tool) { return tool.state.first_step >= 0; };
+  return s.tools.empty() || std::any_of(s.tools.begin(), s.tools.end(), touched);
+}
 
 std::string_view name(StopReason reason) {
   switch (reason) {

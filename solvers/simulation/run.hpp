@@ -16,6 +16,9 @@ struct RunLimits {
 enum class StopReason { AtRest, EndTime, Interrupted, EnergyNotClosed, NotFinite };
 std::string_view name(StopReason reason);
 
+/// Whether the particle has met any of its tools; true if there are none.
+bool has_touched_a_tool(const Simulation& s);
+
 /// Steps until a limit, a failure or `interrupt`; the observers look at the state every few steps and at the end.
 StopReason run(Simulation& s, const RunLimits& limits, std::span<Observer* const> observers,
                const std::atomic<bool>& interrupt);

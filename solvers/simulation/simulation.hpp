@@ -3,8 +3,10 @@
 #include "cohesive/insertion_criterion.hpp"
 #include "cohesive/vertex_impulses.hpp"
 #include "contact/contact_impulses.hpp"
+#include "contact/tool_contact.hpp"
 #include "core/energy_ledger.hpp"
 #include "core/nodal_state.hpp"
+#include "core/rigid_bodies.hpp"
 #include "fem/elastic_force.hpp"
 #include "simulation/options.hpp"
 #include "simulation/phase_times.hpp"
@@ -36,14 +38,10 @@ struct ReferenceState {
 
 /// Sums over the run that no state variable holds.
 struct RunTotals {
-  ToolAction wall;                    ///< impulse, moment and losses so far
-  double mass_scaling_energy = 0.0;   ///< [J]
-  double added_mass = 0.0;            ///< by mass scaling [kg]
-  Vec3 added_linear = Vec3::Zero();   ///< momentum of that mass [kg m/s]
-  Vec3 added_angular = Vec3::Zero();  ///< about the origin [kg m2/s]
-  double max_wall_force = 0.0;        ///< magnitude of the normal force [N]
-  std::int64_t last_wall_step = -1;   ///< last step with a node on the wall
-  std::int64_t first_wall_step = -1;
+  double mass_scaling_energy = 0.0;     ///< [J]
+  double added_mass = 0.0;              ///< by mass scaling [kg]
+  Vec3 added_linear = Vec3::Zero();     ///< momentum of that mass [kg m/s]
+  Vec3 added_angular = Vec3::Zero();    ///< about the origin [kg m2/s]
   std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
   std::int64_t inserted_facets = 0;
   double noted_damage = 0.0;  ///< energy that the cracks had spent when damage was last noticed, see run.cpp [J]
@@ -59,6 +57,9 @@ struct Simulation {
   ElasticForce elastic;
   CrackState cracks;
   ContactState contact;
+  RigidBodies rigid;
+  std::vector<Tool> tools;            ///< in the order of options.tools
+  std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending
   EnergyLedger ledger;
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning
   RunTotals totals;

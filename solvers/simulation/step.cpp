@@ -15,6 +15,8 @@ namespace {
 
 // Pieces that splitting makes may come this near to their critical step before mass is added.
 constexpr double largest_step_safety = 0.9;
+// A node this much of the mean edge inside a tool is not thrown out: far more than round-off, far less than matters.
+constexpr double landing_tolerance_over_edge = 1e-6;
 
 VertexImpulseOptions impulse_options(const Simulation& s) {
   return {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps};
@@ -84,6 +86,7 @@ void kick_nodes(Simulation& s) {
 void drift_nodes(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Motion);
   drift(s.nodes, s.clock.dt);
+  move_tools(s.tools);
 }
 
 void update_faces(Simulation& s) {
@@ -93,26 +96,32 @@ void update_faces(Simulation& s) {
   update_crack_faces(s.cracks, s.topology, s.nodes, turn);
 }
 
-void look_for_new_fragments(Simulation& s) {
+void rebuild_contact_candidates(Simulation& s) {
+  const auto joints = fragment_joints(s.cracks, s.topology, s.contact.fragment_of_tet);
+  rebuild_candidates(s.contact, {s.topology, s.nodes, joints, s.clock.dt});
+}
+
+// Returns whether the candidates for contact have been found anew.
+bool look_for_new_fragments(Simulation& s) {
   auto labels = fragment_labels(s.topology, s.cracks, FragmentLabel::Strict);
   const bool changed = labels != s.contact.fragment_of_tet;
   s.contact.fragments = num_fragments(labels);
   s.contact.fragment_of_tet = std::move(labels);
   const Index handed_over = hand_over_faces(s.cracks, s.topology, s.nodes.x, s.contact.fragment_of_tet,
                                             {.facet_size = s.reference.facet_size});
-  if (!changed && handed_over == 0) return;
-  rebuild_candidates(s.contact, s.topology, s.nodes.x, vertices_with_records(s.cracks));
+  if (!changed && handed_over == 0) return false;
+  rebuild_contact_candidates(s);
+  return true;
 }
 
 void detect_contacts(Simulation& s) {
   if (!s.options.fracture || s.totals.inserted_facets == 0) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
-  if (looks_for_fragments(s)) look_for_new_fragments(s);
+  const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
-  s.contact.travel += largest_approach(s.nodes.v_before, s.clock.dt);  // the last drift's velocities
-  if (s.contact.travel > s.contact.skin)
-    rebuild_candidates(s.contact, s.topology, s.nodes.x, vertices_with_records(s.cracks));
-  refresh_contacts(s.contact, s.topology, s.nodes.x);
+  // The way of the last drift.
+  if (!rebuilt && advance_travel(s.contact, s.nodes.v, s.clock.dt)) rebuild_contact_candidates(s);
+  refresh_contacts(s.contact, s.topology, s.nodes.x, s.rigid);
 }
 
 void apply_crack_impulses(Simulation& s) {
@@ -124,32 +133,41 @@ void apply_crack_impulses(Simulation& s) {
 void apply_fragment_contacts(Simulation& s) {
   if (s.contact.contacts.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactImpulses);
-  apply_contact_impulses(s.contact, s.nodes, {s.options.fracture->law.sliding_friction, s.options.contact_sweeps});
+  apply_contact_impulses(s.contact, s.nodes, s.rigid,
+                         {.friction = s.options.fracture->law.sliding_friction, .sweeps = s.options.contact_sweeps});
   for (const Contact& contact : s.contact.contacts)
     if (contact.impulse.squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
 }
 
-void apply_wall(Simulation& s) {
-  if (!s.options.wall) return;
-  const PhaseTimer timer(s.phase_times, Phase::Wall);
-  const ToolAction action = apply_plane(*s.options.wall, s.nodes, s.clock.dt);
-  s.totals.wall.nodes.clear();
-  s.totals.wall += action;
-  s.totals.max_wall_force = std::max(s.totals.max_wall_force, action.impulse.dot(s.options.wall->normal) / s.clock.dt);
-  if (action.nodes.empty()) return;
-  if (s.totals.first_wall_step < 0) s.totals.first_wall_step = s.clock.step;
-  s.totals.last_wall_step = s.clock.step;
+void apply_tool_impulses(Simulation& s) {
+  s.nodes_on_tools.clear();
+  if (s.tools.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::Tools);
+  s.nodes_on_tools = apply_tools(
+      s.tools, s.nodes,
+      {.dt = s.clock.dt, .step = s.clock.step, .tolerance = landing_tolerance_over_edge * s.reference.mean_edge});
 }
 
 void book_losses(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Booking);
-  book_contact_losses(s.contact, s.nodes);
+  book_contact_losses(s.contact, s.nodes, s.rigid);
   if (!has_cracks(s)) return;
-  std::vector<Index> changed = s.totals.wall.nodes;
+  std::vector<Index> changed = s.nodes_on_tools;
   for (const Contact& contact : s.contact.contacts)
-    changed.insert(changed.end(), contact.nodes.begin(), contact.nodes.end());
+    for (const ContactSide& side : contact.sides)
+      if (side.body == none) changed.insert(changed.end(), side.nodes.begin(), side.nodes.end());
   settle_crack_losses(s.cracks, s.topology, s.nodes, std::move(changed), impulse_options(s));
   if (looks_for_fragments(s)) tidy_faces(s.cracks);
+}
+
+void balance_tools(Simulation& s) {
+  EnergyLedger& ledger = s.ledger;
+  ledger[EnergyTerm::ToolFriction] = ledger[EnergyTerm::ToolImpact] = ledger[EnergyTerm::ToolWork] = 0.0;
+  for (const Tool& tool : s.tools) {
+    ledger[EnergyTerm::ToolFriction] += tool.state.friction_loss;
+    ledger[EnergyTerm::ToolImpact] += tool.state.impact_loss;
+    ledger[EnergyTerm::ToolWork] -= tool.state.work;
+  }
 }
 
 StepStatus check_energies(Simulation& s) {
@@ -177,8 +195,7 @@ void balance_energies(Simulation& s) {
     ledger[EnergyTerm::CrackFriction] = cracks.losses.friction;
   }
   ledger[EnergyTerm::ContactDissipated] = s.contact.dissipated;
-  ledger[EnergyTerm::ToolFriction] = s.totals.wall.friction_loss;
-  ledger[EnergyTerm::ToolImpact] = s.totals.wall.impact_loss;
+  balance_tools(s);
   ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
   ledger[EnergyTerm::MassScaling] = 0.0 - s.totals.mass_scaling_energy;
   const double error = ledger.closure_error();
@@ -187,14 +204,15 @@ void balance_energies(Simulation& s) {
 }
 
 StepStatus step(Simulation& s) {
+  aim_tools(s.tools, s.options.tools, s.clock.time(), s.clock.dt);
   insert_new_cracks(s);
-  update_bulk(s);
-  kick_nodes(s);
   update_faces(s);
   detect_contacts(s);
+  update_bulk(s);
+  kick_nodes(s);
   apply_crack_impulses(s);
   apply_fragment_contacts(s);
-  apply_wall(s);
+  apply_tool_impulses(s);
   book_losses(s);
   const StepStatus status = check_energies(s);
   drift_nodes(s);

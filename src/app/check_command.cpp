@@ -10,14 +10,15 @@ namespace knap {
 ExitCode check_command(const CheckArguments& arguments) {
   const RunConfig config = load_config(arguments.case_file, arguments.overrides);
   set_num_threads(config.run.threads);
-  const auto shape = particle_shape(config.particle);
-  const SanityCard card = shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config));
+  const auto shape = particle_shape(config.particles[0]);
+  const SanityCard card =
+      shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config.particles[0]));
   fmt::print("{}", format_sanity_card(card));
   std::fflush(stdout);
   const auto reasons = refusals(card);
   for (const std::string& reason : reasons)
-    fmt::print(stderr, "{}: {}\n", config.fracture.allow_unresolved ? "warning" : "error", reason);
-  if (!reasons.empty() && !config.fracture.allow_unresolved) return ExitCode::BadInput;
+    fmt::print(stderr, "{}: {}\n", config.particles[0].fracture.allow_unresolved ? "warning" : "error", reason);
+  if (!reasons.empty() && !config.particles[0].fracture.allow_unresolved) return ExitCode::BadInput;
   fmt::print("{}: the case is valid\n", arguments.case_file.string());
   return ExitCode::Ok;
 }

@@ -42,7 +42,7 @@ ExitCode mesh_command(const MeshArguments& arguments) {
   if (arguments.out.extension() != ".vtu")
     throw InputError(fmt::format("--out {}: must end in .vtu", arguments.out.string()));
   const RunConfig config = load_config(arguments.case_file, arguments.overrides);
-  const ParticleMesh particle = make_particle_mesh(config);
+  const ParticleMesh particle = make_particle_mesh(config.particles[0]);
   write_vtu(arguments.out, quality_grid(particle.mesh));
   print_quality(particle);
   fmt::print("  written to        {}\n", arguments.out.string());

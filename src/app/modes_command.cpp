@@ -21,9 +21,9 @@ Material long_term_material(const MaterialConfig& material) {
 }
 
 // eta = omega R/c_T per Hz, for a sphere; 0 for other shapes, of which no tables exist.
-double eta_per_hertz(const RunConfig& config, const Material& material) {
-  if (config.particle.shape != ParticleShape::Sphere) return 0.0;
-  return std::numbers::pi * config.particle.diameter / s_wave_speed(material.small_strain(), material.density);
+double eta_per_hertz(const ParticleConfig& particle, const Material& material) {
+  if (particle.shape != ParticleShape::Sphere) return 0.0;
+  return std::numbers::pi * particle.diameter / s_wave_speed(material.small_strain(), material.density);
 }
 
 void write_table(const std::filesystem::path& path, std::span<const Mode> modes, double eta) {
@@ -67,17 +67,17 @@ ExitCode modes_command(const ModesArguments& arguments) {
   fs::create_directories(out, failure);
   if (failure) throw RuntimeFailure(fmt::format("{}: cannot be made: {}", out.string(), failure.message()));
 
-  const ParticleMesh particle = make_particle_mesh(config);
+  const ParticleMesh particle = make_particle_mesh(config.particles.front());
   const TetMesh& mesh = particle.mesh;
   fmt::print("{} tets, {} nodes\n", mesh.num_tets(), mesh.num_vertices());
   std::fflush(stdout);
   const Topology topology = make_topology(mesh);
-  const Material material = long_term_material(config.material);
+  const Material material = long_term_material(config.particles.front().material);
   const auto masses =
       lumped_masses(topology, corner_masses(topology, tet_volumes(mesh.tets, mesh.vertices), material.density));
   const auto modes = free_modes({topology, mesh.vertices, material, masses}, {.count = arguments.count});
 
-  const double eta = eta_per_hertz(config, material);
+  const double eta = eta_per_hertz(config.particles.front(), material);
   print_table(modes, eta);
   write_table(out / "modes.csv", modes, eta);
   write_shapes(out / "modes.vtu", mesh, modes);

@@ -38,10 +38,10 @@ double local_mean_edge(const TetMesh& mesh, const Vec3& point, double from, doub
   return count > 0.0 ? sum / count : 0.0;
 }
 
-TetMesh raw_mesh(const RunConfig& config) {
-  if (const auto shape = particle_shape(config.particle)) return tetrahedralise(*shape, mesh_options(config, *shape));
-  const TetMesh mesh = read_msh(config.particle.mesh_file, config.particle.mesh_scale);
-  check_mesh(mesh, config.particle.mesh_file.string());
+TetMesh raw_mesh(const ParticleConfig& config) {
+  if (const auto shape = particle_shape(config)) return tetrahedralise(*shape, mesh_options(config.mesh, *shape));
+  const TetMesh mesh = read_msh(config.mesh_file, config.mesh_scale);
+  check_mesh(mesh, config.mesh_file.string());
   return morton_ordered(mesh);
 }
 
@@ -61,31 +61,32 @@ std::optional<Shape> particle_shape(const ParticleConfig& particle) {
   return std::nullopt;
 }
 
-TetrahedraliseOptions mesh_options(const RunConfig& config, const Shape& shape) {
-  return {.element_size = config.mesh.element_size,
-          .contact_element_size = config.mesh.contact_element_size,
-          .contact_extent = config.mesh.contact_extent,
+TetrahedraliseOptions mesh_options(const MeshConfig& mesh, const Shape& shape) {
+  return {.element_size = mesh.element_size,
+          .contact_element_size = mesh.contact_element_size,
+          .contact_extent = mesh.contact_extent,
           .contact_point = Vec3(0.0, 0.0, -0.5 * extent(shape).z()),
-          .seed = config.mesh.seed,
-          .perturbation = config.mesh.perturbation};
+          .seed = mesh.seed,
+          .perturbation = mesh.perturbation};
 }
 
 double initial_gap(double contact_element_size) { return 1e-3 * contact_element_size; }
 
-ParticleMesh make_particle_mesh(const RunConfig& config) {
+ParticleMesh make_particle_mesh(const ParticleConfig& config) {
   ParticleMesh particle;
   particle.mesh = raw_mesh(config);
   TetMesh& mesh = particle.mesh;
   particle.quality = measure_quality(mesh);
   particle.diameter = std::cbrt(6.0 / std::numbers::pi * particle.quality.total_volume);
-  const bool from_file = config.particle.shape == ParticleShape::MeshFile;
+  const bool from_file = config.shape == ParticleShape::MeshFile;
   const double near = from_file ? near_over_height * height(mesh) : config.mesh.contact_extent;
   const Vec3 lowest = lowest_point(mesh);
   const auto or_mean = [&](double edge) { return edge > 0.0 ? edge : particle.quality.mean_edge; };
   particle.contact_element_size = or_mean(local_mean_edge(mesh, lowest, 0.0, near));
   particle.element_size = or_mean(local_mean_edge(mesh, lowest, 2.0 * near, 1e300));
-  const double lift = initial_gap(particle.contact_element_size) - lowest.z();
-  for (Vec3& x : mesh.vertices) x.z() += lift;
+  const Vec3 standing = (initial_gap(particle.contact_element_size) - lowest.z()) * Vec3::UnitZ();
+  const Vec3 shift = config.position.value_or(standing);  // shapes are meshed about the origin
+  for (Vec3& x : mesh.vertices) x += shift;
   return particle;
 }
 

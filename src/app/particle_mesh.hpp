@@ -9,7 +9,7 @@
 
 namespace knap {
 
-/// A particle's mesh, just above the wall z = 0 that it will strike.
+/// A particle's mesh where it starts: just above the plane z = 0 if not said otherwise.
 struct ParticleMesh {
   TetMesh mesh;
   MeshQuality quality;
@@ -21,12 +21,12 @@ struct ParticleMesh {
 /// The shape of a case; nothing for a mesh file.
 std::optional<Shape> particle_shape(const ParticleConfig& particle);
 /// How that shape is to be meshed.
-TetrahedraliseOptions mesh_options(const RunConfig& config, const Shape& shape);
+TetrahedraliseOptions mesh_options(const MeshConfig& mesh, const Shape& shape);
 
 /// Free way to the wall at the start [m].
 double initial_gap(double contact_element_size);
 
-/// Meshes the shape, or reads and checks the mesh file. Throws InputError.
-ParticleMesh make_particle_mesh(const RunConfig& config);
+/// Meshes the shape, or reads and checks the mesh file, and puts it where it starts. Throws InputError.
+ParticleMesh make_particle_mesh(const ParticleConfig& config);
 
 }  // namespace knap

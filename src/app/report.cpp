@@ -91,10 +91,11 @@ Json wall(const Simulation& s) {
   const auto time_of = [&](std::int64_t step) {
     return step < 0 ? Json(nullptr) : Json(s.clock.dt * static_cast<double>(step));
   };
-  return {{"max_force", s.totals.max_wall_force},
-          {"impulse", vector(s.totals.wall.impulse)},
-          {"first_contact", time_of(s.totals.first_wall_step)},
-          {"last_contact", time_of(s.totals.last_wall_step)}};
+  const ToolState tool = s.tools.empty() ? ToolState{} : s.tools.front().state;
+  return {{"max_force", tool.max_force},
+          {"impulse", vector(tool.impulse)},
+          {"first_contact", time_of(tool.first_step)},
+          {"last_contact", time_of(tool.last_step)}};
 }
 
 Json performance(const Simulation& s, const Session& session) {

@@ -33,10 +33,10 @@ std::string case_name(const RunArguments& arguments) { return arguments.case_fil
 void check_card(const SanityCard& card, const RunConfig& config, RunLog& log) {
   std::string reasons;
   for (const std::string& reason : refusals(card)) {
-    if (config.fracture.allow_unresolved) log.warn(reason);
+    if (config.particles[0].fracture.allow_unresolved) log.warn(reason);
     reasons += (reasons.empty() ? "" : "\n") + reason;
   }
-  if (!reasons.empty() && !config.fracture.allow_unresolved) throw InputError(reasons);
+  if (!reasons.empty() && !config.particles[0].fracture.allow_unresolved) throw InputError(reasons);
 }
 
 // What only the time step tells.
@@ -51,14 +51,14 @@ void check_times(const SanityCard& card, const RunConfig& config, const Simulati
   if (config.run.end_time && *config.run.end_time < dt)
     throw InputError(
         fmt::format("run.end_time = {} s: is shorter than one time step, {:.3g} s", *config.run.end_time, dt));
-  if (config.material.viscous_ratio > 0.0 && config.material.relaxation_time < dt)
+  if (config.particles[0].material.viscous_ratio > 0.0 && config.particles[0].material.relaxation_time < dt)
     throw InputError(fmt::format("material.relaxation_time = {} s: must be at least the time step, {:.3g} s",
-                                 config.material.relaxation_time, dt));
+                                 config.particles[0].material.relaxation_time, dt));
 }
 
 PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& log) {
   log.info("Meshing ...");
-  const ParticleMesh particle = make_particle_mesh(config);
+  const ParticleMesh particle = make_particle_mesh(config.particles[0]);
   const MeshQuality& quality = particle.quality;
   log.info(fmt::format("{} tets, {} nodes, shape quality {:.2f} mean, {:.2f} worst\n", quality.num_tets,
                        quality.num_vertices, quality.mean_shape, quality.min_shape));
@@ -113,7 +113,7 @@ ExitCode run_in_folder(PreparedRun& run, const SessionOptions& options, RunLog& 
   const Session session = run_session(run, options, log);
   const RunOutcome outcome = run_outcome(run.simulation, run.identity, session);
   write_results(run.simulation, outcome, options, log);
-  if (session.stop_reason == StopReason::EndTime && run.simulation.totals.first_wall_step < 0)
+  if (session.stop_reason == StopReason::EndTime && !has_touched_a_tool(run.simulation))
     log.warn(fmt::format("the particle had not reached the wall at the end, {:.4g} us; a later run.end_time is needed",
                          1e6 * run.simulation.clock.time()));
   const ExitCode code = exit_code(session.stop_reason);

@@ -65,16 +65,28 @@ std::string shown(const Value& value) {
   return std::visit(Show{}, value);
 }
 
+// What a case has one or many of must be as many as it was.
+void require_same_counts(const RunFolder& folder, const RunConfig& before, const RunConfig& config) {
+  for (const Section& section : sections())
+    if (count(section.scope, before) != count(section.scope, config))
+      throw InputError(fmt::format("{}: cannot resume another case: [[{}]] was there {} times and is now {}",
+                                   folder.path.string(), section.name, count(section.scope, before),
+                                   count(section.scope, config)));
+}
+
 // Every key must be as it was; only the number of threads and of wall-clock seconds change nothing in the results.
 void require_same_case(const RunFolder& folder, const RunConfig& config) {
   const RunConfig before = load_config(folder.effective());
+  require_same_counts(folder, before, config);
   for (const Key& key : schema()) {
     if ((key.section == "run" && key.name == "threads") || key.name == "checkpoint_interval") continue;
-    const Value was = key.get(before);
-    const Value is = key.get(config);
-    if (was != is)
-      throw InputError(fmt::format("{}: cannot resume another case: {}.{} was {} there and is {} now",
-                                   folder.path.string(), key.section, key.name, shown(was), shown(is)));
+    for (std::size_t element = 0; element < count(scope(key), config); ++element) {
+      const Value was = key.get(before, element);
+      const Value is = key.get(config, element);
+      if (was != is)
+        throw InputError(fmt::format("{}: cannot resume another case: {}.{} was {} there and is {} now",
+                                     folder.path.string(), key.section, key.name, shown(was), shown(is)));
+    }
   }
 }
 

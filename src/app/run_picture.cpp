@@ -42,7 +42,7 @@ void draw_run(const std::filesystem::path& png, const Simulation& s, const RunOu
   input.subtitle = subtitle(s, outcome);
   for (const Vec4& x : s.nodes.x) input.points.emplace_back(xyz(x));
   for (const Fragment& fragment : outcome.damage.fragments) input.fragment_mass.push_back(fragment.mass);
-  if (s.options.wall) input.wall_height = s.options.wall->point.z();
+  if (!s.tools.empty()) input.wall_height = s.tools.front().state.position.z();
   render_picture(png, input);
 }
 

@@ -33,13 +33,13 @@ constexpr double latest_crossings_after_contact = 20.0;
 constexpr Index most_tets_to_copy = 500000;
 
 SanityInput material_input(const RunConfig& config) {
-  SanityInput input{.young_modulus = config.material.young_modulus,
-                    .poisson_ratio = config.material.poisson_ratio,
-                    .density = config.material.density,
+  SanityInput input{.young_modulus = config.particles[0].material.young_modulus,
+                    .poisson_ratio = config.particles[0].material.poisson_ratio,
+                    .density = config.particles[0].material.density,
                     .speed = config.impact.speed,
                     .angle = config.impact.angle,
                     .end_time = config.run.end_time};
-  const FractureConfig& fracture = config.fracture;
+  const FractureConfig& fracture = config.particles[0].fracture;
   if (fracture.insertion != Insertion::None)
     input.fracture = {fracture.strength, fracture.fracture_energy, fracture.shear_strength_ratio};
   return input;
@@ -132,9 +132,9 @@ SanityCard estimated_card(const RunConfig& config, const Shape& shape) {
   SanityInput input = material_input(config);
   input.volume = volume(shape);
   input.diameter = volume_diameter(input.volume);
-  input.contact_element_size = config.mesh.contact_element_size;
-  input.element_size = config.mesh.element_size;
-  input.num_tets = static_cast<Index>(expected_num_tets(shape, mesh_options(config, shape)));
+  input.contact_element_size = config.particles[0].mesh.contact_element_size;
+  input.element_size = config.particles[0].mesh.element_size;
+  input.num_tets = static_cast<Index>(expected_num_tets(shape, mesh_options(config.particles[0].mesh, shape)));
   return card_with_estimated_step(config, std::move(input));
 }
 

@@ -30,18 +30,19 @@ FractureOptions fracture_options(const FractureConfig& fracture) {
 }  // namespace
 
 SimulationOptions simulation_options(const RunConfig& config) {
-  SimulationOptions options{.young_modulus = config.material.young_modulus,
-                            .poisson_ratio = config.material.poisson_ratio,
-                            .density = config.material.density,
-                            .viscous_ratio = config.material.viscous_ratio,
-                            .relaxation_time = config.material.relaxation_time,
+  SimulationOptions options{.young_modulus = config.particles[0].material.young_modulus,
+                            .poisson_ratio = config.particles[0].material.poisson_ratio,
+                            .density = config.particles[0].material.density,
+                            .viscous_ratio = config.particles[0].material.viscous_ratio,
+                            .relaxation_time = config.particles[0].material.relaxation_time,
                             .fracture = std::nullopt,
-                            .wall = Plane{.friction = config.impact.wall_friction},
+                            .tools = {wall(config.impact.wall_friction)},
                             .velocity = impact_velocity(config.impact),
                             .spin = config.impact.spin,
                             .step_safety = config.run.step_safety,
                             .insertion_interval = config.run.insertion_interval};
-  if (config.fracture.insertion != Insertion::None) options.fracture = fracture_options(config.fracture);
+  if (config.particles[0].fracture.insertion != Insertion::None)
+    options.fracture = fracture_options(config.particles[0].fracture);
   return options;
 }
 

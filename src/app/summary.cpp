@@ -86,7 +86,7 @@ std::string summary(const Simulation& s, const RunOutcome& outcome, const std::s
   add_pieces(text, outcome);
   add_cracks(text, outcome.cracks);
   add_line(text, "rebound", rebound_line(outcome));
-  add_line(text, "wall force", fmt::format("{:.4g} N at most", s.totals.max_wall_force));
+  if (!s.tools.empty()) add_line(text, "wall force", fmt::format("{:.4g} N at most", s.tools.front().state.max_force));
   add_energies(text, s, utf8);
   add_line(text, "closure error", fmt::format("{:.4f} % at most", 100.0 * s.ledger.max_closure_error));
   if (s.totals.smallest_volume_ratio <= 0.0) add_line(text, "inverted", "a tet was turned inside out");

@@ -128,22 +128,47 @@ std::string place_text(const std::string& file, const toml::source_location& loc
   return fmt::format("{}:{}:{}", file, location.line(), location.column());
 }
 
-std::vector<PlacedEntry> entries_of(const toml::value& root, CaseDocument& document) {
-  std::vector<PlacedEntry> placed;
-  const auto add = [&](const std::string& section, const std::string& key, const toml::value& value) {
-    const auto location = value.location();
-    placed.push_back({location, {section, key, to_raw(value), place_text(document.file, location), false}});
-  };
-  for (const auto& [section, content] : root.as_table()) {
-    if (!content.is_table()) {
-      add("", section, content);
-      continue;
-    }
-    document.sections[section] = place_text(document.file, content.location());
-    for (const auto& [key, value] : content.as_table()) add(section, key, value);
-  }
-  return placed;
+bool is_array_of_tables(const toml::value& value) {
+  if (!value.is_array()) return false;
+  const auto& items = value.as_array();
+  return !items.empty() && std::all_of(items.begin(), items.end(), [](const auto& item) { return item.is_table(); });
 }
+
+// Collects the entries of a file with the tables they stand in.
+struct Collector {
+  CaseDocument& document;
+  std::vector<PlacedEntry> placed{};
+
+  void add_entry(const TableName& table, const std::string& key, const toml::value& value) {
+    const auto location = value.location();
+    placed.push_back({location, {table, key, to_raw(value), place_text(document.file, location), false}});
+  }
+
+  // A table inside a section may be a part of it, or a value that should not be one: the reader of keys decides.
+  void add_table(const TableName& name, const toml::value& table) {
+    document.tables[name] = place_text(document.file, table.location());
+    for (const auto& [key, value] : table.as_table()) {
+      if (value.is_table() && name.part.empty()) {
+        add_table({name.section, key, name.number}, value);
+      } else {
+        add_entry(name, key, value);
+      }
+    }
+  }
+
+  void add_root(const toml::value& root) {
+    for (const auto& [section, content] : root.as_table()) {
+      if (content.is_table()) {
+        add_table({section}, content);
+      } else if (is_array_of_tables(content)) {
+        int number = 0;
+        for (const auto& table : content.as_array()) add_table({section, "", number++}, table);
+      } else {
+        add_entry({}, section, content);
+      }
+    }
+  }
+};
 
 }  // namespace
 
@@ -166,10 +191,12 @@ std::string as_text(const RawValue& value) {
 CaseDocument parse_document(std::string_view text, const std::string& file) {
   const toml::value root = parse_toml(text, file);
   CaseDocument document{file, {}, {}};
-  std::vector<PlacedEntry> placed = entries_of(root, document);
+  Collector collector{document};
+  collector.add_root(root);
+  std::vector<PlacedEntry>& placed = collector.placed;
   std::sort(placed.begin(), placed.end(), [](const PlacedEntry& a, const PlacedEntry& b) {
-    return std::tuple(a.location.line(), a.location.column(), a.entry.section, a.entry.key) <
-           std::tuple(b.location.line(), b.location.column(), b.entry.section, b.entry.key);
+    return std::tuple(a.location.line(), a.location.column(), a.entry.table, a.entry.key) <
+           std::tuple(b.location.line(), b.location.column(), b.entry.table, b.entry.key);
   });
   for (auto& item : placed) document.entries.push_back(std::move(item.entry));
   return document;
@@ -186,16 +213,23 @@ RawValue parse_loose_value(std::string_view text) {
   return {std::string(text)};
 }
 
-Entry parse_override(const std::string& override_text) {
+Override parse_override(const std::string& override_text) {
   const std::string place = "command line --set " + shortened(override_text);
   const std::size_t equals = override_text.find('=');
-  const std::string name = trimmed(override_text.substr(0, equals));
-  const std::size_t dot = name.find('.');
-  if (equals == std::string::npos || dot == std::string::npos || dot == 0 || dot + 1 == name.size())
+  std::vector<std::string> path{""};
+  for (const char c : trimmed(override_text.substr(0, equals))) {
+    if (c == '.') {
+      path.emplace_back();
+    } else {
+      path.back() += c;
+    }
+  }
+  const bool has_gap = std::any_of(path.begin(), path.end(), [](const std::string& word) { return word.empty(); });
+  if (equals == std::string::npos || has_gap || path.size() < 2 || path.size() > 4)
     throw InputError(place + ": must have the form section.key=value, such as impact.speed=15m/s");
   const std::string value = trimmed(override_text.substr(equals + 1));
   if (value.empty()) throw InputError(place + ": has no value after '='");
-  return {name.substr(0, dot), name.substr(dot + 1), parse_loose_value(value), place, true};
+  return {std::move(path), parse_loose_value(value), place};
 }
 
 }  // namespace knap

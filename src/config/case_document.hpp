@@ -3,6 +3,7 @@
 // only file of the module that knows TOML is case_document.cpp.
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,19 +22,35 @@ struct RawValue {
 /// The value as it could stand in a case file, on one line, shortened when long.
 std::string as_text(const RawValue& value);
 
+/// The name of a table as written: [section], [[section]] or [section.part].
+struct TableName {
+  std::string section;          ///< "" = outside any section
+  std::string part{};           ///< "" = the section itself
+  std::optional<int> number{};  ///< which [[section]], from 0; absent when written with single brackets
+
+  auto operator<=>(const TableName&) const = default;
+};
+
 /// One `key = value`.
 struct Entry {
-  std::string section;  ///< "" = outside any section
+  TableName table;
   std::string key;
   RawValue value;
   std::string place;  ///< "case.toml:12:9" or "command line --set impact.speed=3"
   bool from_command_line = false;
 };
 
+/// A value given on the command line: the words before the '=', two to four of them.
+struct Override {
+  std::vector<std::string> path;
+  RawValue value;
+  std::string place;
+};
+
 struct CaseDocument {
-  std::string file;                             ///< as the user named it
-  std::vector<Entry> entries;                   ///< in the order of the file
-  std::map<std::string, std::string> sections;  ///< name -> place of its header
+  std::string file;                         ///< as the user named it
+  std::vector<Entry> entries;               ///< in the order of the file
+  std::map<TableName, std::string> tables;  ///< name -> place of its header
 };
 
 /// Parses a case file's text; `file` is only named in messages. Throws InputError.
@@ -42,7 +59,7 @@ CaseDocument parse_document(std::string_view text, const std::string& file);
 /// The value that `text` is in TOML; anything else is a string, so that words and quantities need no quotes.
 RawValue parse_loose_value(std::string_view text);
 
-/// Splits "section.key=value" into an entry. Throws InputError when it has another form.
-Entry parse_override(const std::string& override_text);
+/// Splits "section.key=value". Throws InputError when it has another form.
+Override parse_override(const std::string& override_text);
 
 }  // namespace knap

@@ -28,6 +28,8 @@ std::string written_as(const Key& key) {
       return "switch";
     case KeyType::Choice:
       return "word";
+    case KeyType::Name:
+      return "name";
     case KeyType::File:
       break;
   }
@@ -38,6 +40,7 @@ std::string allowed(const Key& key) {
   if (key.type == KeyType::Switch) return "true, false";
   if (key.type == KeyType::Choice) return joined(key.choices);
   if (key.type == KeyType::File) return "a readable file";
+  if (key.type == KeyType::Name) return "up to 40 characters";
   return key.range.text;
 }
 
@@ -46,22 +49,34 @@ std::string described(const Key& key) {
   return fmt::format("{} Only when {}.", key.description, key.applies.text);
 }
 
-void add_section_table(std::string& page, const std::string& section) {
-  page += fmt::format("\n## [{}]\n\n| key | unit or type | allowed | default | meaning |\n|---|---|---|---|---|\n",
-                      section);
+void add_section_table(std::string& page, const Section& section) {
+  const char* form = section.scope == Scope::Tool ? "\n## [[{}]]\n" : "\n## [{}]\n";
+  page += fmt::format(fmt::runtime(form), section.name);
+  if (!section.note.empty()) page += "\n" + section.note + "\n";
+  page += "\n| key | unit or type | allowed | default | meaning |\n|---|---|---|---|---|\n";
   for (const Key& key : schema())
-    if (key.section == section)
+    if (key.section == section.name)
       page += fmt::format("| `{}` | {} | {} | {} | {} |\n", key.name, written_as(key), allowed(key), key.fallback.text,
                           described(key));
 }
 
 void add_units(std::string& page) {
   page += "\n## Units\n\n| quantity | bare number | units, with the usual prefixes | example |\n|---|---|---|---|\n";
-  for (int i = 0; i <= static_cast<int>(Quantity::Toughness); ++i) {
+  for (int i = 0; i < static_cast<int>(Quantity::Count); ++i) {
     const auto quantity = static_cast<Quantity>(i);
     page += fmt::format("| {} | {} | {} | `\"{}\"` |\n", name(quantity), si_unit(quantity), sample_units(quantity),
                         sample_value(quantity));
   }
+}
+
+void add_placement(std::string& page) {
+  page +=
+      "\n## Where things start\n\n"
+      "A particle without a `position` stands on the plane z = 0, a thousandth of an element above it, its centre on "
+      "the\nz axis, whether there is a wall or not. A tool without a `position` is put where it just touches the "
+      "particles,\nthe same gap away: it comes from where its `velocity` comes from; without one a plane or platen "
+      "from behind its\n`normal`, any other tool from below. A tool must not overlap a particle at the start, nor "
+      "a particle another one.\n";
 }
 
 void add_presets(std::string& page) {
@@ -98,13 +113,15 @@ std::string keys_as_markdown() {
       "Every section and key of a case file. This page is generated from the table that also reads the case\n"
       "(`src/config/schema.cpp`); the same table in the terminal: `knap keys`. `cases/normal_impact.toml` is a case to "
       "copy\n"
-      "from. [particle], [material] and [impact] must be there; an unknown key is an error.\n\n"
+      "from. [particle], [material] and, without a [[tool]], [impact] must be there; an unknown key is an error.\n\n"
       "A quantity is a bare number in SI or text with a unit, such as `speed = \"15 m/s\"`. In the column \"allowed\" "
       "a\n"
       "square bracket includes the end of the interval, a round one excludes it. Any key can be set from the command "
       "line,\n"
-      "`--set impact.speed=15m/s`, which wins over the case file.\n";
-  for (const std::string& section : section_names()) add_section_table(page, section);
+      "`--set impact.speed=15m/s`, which wins over the case file; of several particles or tools by name or number,\n"
+      "`--set tool.NAME.friction=0.2`, `--set particle.2.material.density=1200`.\n";
+  for (const Section& section : sections()) add_section_table(page, section);
+  add_placement(page);
   add_units(page);
   add_presets(page);
   return page;

@@ -6,6 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <set>
+
+#include "config/schema.hpp"
 
 namespace knap {
 namespace {
@@ -27,11 +30,98 @@ double rounded_to_3_digits(double x) {
 double cubed(double x) { return x * x * x; }
 
 // Tets of the coarse particle plus those of the half ball that is refined.
-double estimated_num_tets(const RunConfig& config) {
-  const double volume = particle_volume(config.particle);
-  const double refined = std::min(volume, 2.0 / 3.0 * std::numbers::pi * cubed(config.mesh.contact_extent));
-  return edge_cubed_per_volume *
-         (volume / cubed(config.mesh.element_size) + refined / cubed(config.mesh.contact_element_size));
+double estimated_num_tets(const ParticleConfig& particle) {
+  const MeshConfig& mesh = particle.mesh;
+  const double volume = particle_volume(particle);
+  const double refined = std::min(volume, 2.0 / 3.0 * std::numbers::pi * cubed(mesh.contact_extent));
+  return edge_cubed_per_volume * (volume / cubed(mesh.element_size) + refined / cubed(mesh.contact_element_size));
+}
+
+constexpr double thickness_over_radius = 0.25;
+constexpr std::int64_t seeds_between_particles = 1000;
+
+void add_mesh_sizes(ParticleConfig& particle) {
+  if (particle.shape == ParticleShape::MeshFile) return;
+  MeshConfig& mesh = particle.mesh;
+  if (mesh.element_size == 0.0) {
+    const double edge = std::cbrt(edge_cubed_per_volume * particle_volume(particle) / default_num_tets);
+    const double largest = 0.5 * smallest_extent(particle);
+    mesh.element_size = std::max(mesh.contact_element_size, std::min(largest, rounded_to_3_digits(edge)));
+  }
+  if (mesh.contact_element_size == 0.0) mesh.contact_element_size = mesh.element_size;
+  if (mesh.contact_extent == 0.0) mesh.contact_extent = 0.25 * smallest_extent(particle);
+}
+
+void add_fracture_energy(ParticleConfig& particle) {
+  FractureConfig& fracture = particle.fracture;
+  if (fracture.toughness <= 0.0) return;
+  const double nu = particle.material.poisson_ratio;
+  fracture.fracture_energy =
+      fracture.toughness * fracture.toughness * (1.0 - nu * nu) / particle.material.young_modulus;
+}
+
+// "" = of the only particle.
+std::string prefix(const RunConfig& config, const ParticleConfig& particle) {
+  return config.particles.size() > 1 ? fmt::format("particle {}: ", particle.name) : "";
+}
+
+void check_mesh_sizes(const ParticleConfig& particle, std::vector<std::string>& found) {
+  if (particle.shape == ParticleShape::MeshFile) return;
+  const MeshConfig& mesh = particle.mesh;
+  const double extent = smallest_extent(particle);
+  if (mesh.element_size > 0.5 * extent)
+    found.push_back(
+        fmt::format("mesh.element_size = {} m: must be at most half the smallest extent of the particle, {} m",
+                    mesh.element_size, extent));
+  if (mesh.contact_element_size > mesh.element_size)
+    found.push_back(fmt::format("mesh.contact_element_size = {} m: must be at most mesh.element_size, {} m",
+                                mesh.contact_element_size, mesh.element_size));
+  if (const double tets = estimated_num_tets(particle); !(tets <= most_tets))
+    found.push_back(
+        fmt::format("mesh.element_size = {} m, contact_element_size = {} m: about {:.1e} tets, allowed are "
+                    "{:.0e}; larger elements or a smaller contact_extent are needed",
+                    mesh.element_size, mesh.contact_element_size, tets, most_tets));
+}
+
+void check_fracture(const FractureConfig& fracture, std::vector<std::string>& found) {
+  if (const double modulus = fracture.weibull_modulus; modulus > 0.0 && modulus < 1.0)
+    found.push_back(
+        fmt::format("fracture.weibull_modulus = {}: must be 0 (uniform strength) or from 1 to 1000", modulus));
+  const double energy = fracture.fracture_energy;
+  if (energy != 0.0 && !(energy >= 1e-12 && energy <= 1e9))
+    found.push_back(
+        fmt::format("fracture.toughness = {} Pa m^1/2: gives a fracture energy of {:.3g} J/m2, allowed are "
+                    "1e-12 to 1e9 J/m2",
+                    fracture.toughness, energy));
+}
+
+void check_tool(const ToolConfig& tool, std::vector<std::string>& found) {
+  const auto refuse_zero = [&](const char* key, const Vec3& direction) {
+    if (direction.norm() < 1e-12)
+      found.push_back(fmt::format("tool.{} = [0, 0, 0]: must point somewhere (tool {})", key, tool.name));
+  };
+  refuse_zero("normal", tool.normal);
+  refuse_zero("axis", tool.axis);
+  refuse_zero("rotation_axis", tool.rotation_axis);
+  const bool is_driven = tool.motion == MotionKind::Velocity || tool.motion == MotionKind::Ramp;
+  if (is_driven && tool.velocity.norm() == 0.0)
+    found.push_back(fmt::format("tool.velocity = [0, 0, 0]: is rest, write motion = \"rest\" (tool {})", tool.name));
+  if (tool.motion == MotionKind::Free && tool.type == ToolKind::Plane)
+    found.push_back(fmt::format("tool.motion = \"free\": a plane has no mass; take a platen (tool {})", tool.name));
+}
+
+void check_names(const RunConfig& config, std::vector<std::string>& found) {
+  std::set<std::string> tools, particles;
+  if (has_wall(config)) tools.insert("wall");
+  for (const ToolConfig& tool : config.tools)
+    if (!tools.insert(tool.name).second)
+      found.push_back(fmt::format("tool.name = \"{}\": is the name of another tool", tool.name));
+  for (const ParticleConfig& particle : config.particles) {
+    if (find_section(particle.name))
+      found.push_back(fmt::format("particle.name = \"{}\": is the name of a section", particle.name));
+    if (!particles.insert(particle.name).second)
+      found.push_back(fmt::format("particle.name = \"{}\": is the name of another particle", particle.name));
+  }
 }
 
 }  // namespace
@@ -65,53 +155,32 @@ double smallest_extent(const ParticleConfig& particle) {
 }
 
 void add_derived_values(RunConfig& config) {
-  MeshConfig& mesh = config.mesh;
-  for (std::int64_t* seed : {&mesh.seed, &config.fracture.weibull_seed})
-    if (*seed == not_given) *seed = config.run.seed;
-  if (config.particle.shape != ParticleShape::MeshFile) {
-    if (mesh.element_size == 0.0) {
-      const double edge = std::cbrt(edge_cubed_per_volume * particle_volume(config.particle) / default_num_tets);
-      const double largest = 0.5 * smallest_extent(config.particle);
-      mesh.element_size = std::max(mesh.contact_element_size, std::min(largest, rounded_to_3_digits(edge)));
-    }
-    if (mesh.contact_element_size == 0.0) mesh.contact_element_size = mesh.element_size;
-    if (mesh.contact_extent == 0.0) mesh.contact_extent = 0.25 * smallest_extent(config.particle);
+  std::int64_t seed = config.run.seed;
+  for (std::size_t i = 0; i < config.particles.size(); ++i, seed += seeds_between_particles) {
+    ParticleConfig& particle = config.particles[i];
+    if (particle.name.empty()) particle.name = fmt::format("particle{}", i + 1);
+    for (std::int64_t* own : {&particle.mesh.seed, &particle.fracture.weibull_seed})
+      if (*own == not_given) *own = seed;
+    add_mesh_sizes(particle);
+    add_fracture_energy(particle);
   }
-  const MaterialConfig& material = config.material;
-  FractureConfig& fracture = config.fracture;
-  if (fracture.toughness > 0.0) {
-    const double nu = material.poisson_ratio;
-    fracture.fracture_energy = fracture.toughness * fracture.toughness * (1.0 - nu * nu) / material.young_modulus;
+  for (std::size_t i = 0; i < config.tools.size(); ++i) {
+    ToolConfig& tool = config.tools[i];
+    if (tool.name.empty()) tool.name = fmt::format("tool{}", i + 1);
+    if (tool.type == ToolKind::Platen && tool.thickness == 0.0) tool.thickness = thickness_over_radius * tool.radius;
   }
 }
 
 std::vector<std::string> contradictions(const RunConfig& config) {
   std::vector<std::string> found;
-  const MeshConfig& mesh = config.mesh;
-  if (config.particle.shape != ParticleShape::MeshFile) {
-    const double extent = smallest_extent(config.particle);
-    if (mesh.element_size > 0.5 * extent)
-      found.push_back(
-          fmt::format("mesh.element_size = {} m: must be at most half the smallest extent of the particle, {} m",
-                      mesh.element_size, extent));
-    if (mesh.contact_element_size > mesh.element_size)
-      found.push_back(fmt::format("mesh.contact_element_size = {} m: must be at most mesh.element_size, {} m",
-                                  mesh.contact_element_size, mesh.element_size));
-    if (const double tets = estimated_num_tets(config); !(tets <= most_tets))
-      found.push_back(
-          fmt::format("mesh.element_size = {} m, contact_element_size = {} m: about {:.1e} tets, allowed are "
-                      "{:.0e}; larger elements or a smaller contact_extent are needed",
-                      mesh.element_size, mesh.contact_element_size, tets, most_tets));
+  for (const ParticleConfig& particle : config.particles) {
+    std::vector<std::string> own;
+    check_mesh_sizes(particle, own);
+    check_fracture(particle.fracture, own);
+    for (const std::string& text : own) found.push_back(prefix(config, particle) + text);
   }
-  if (const double modulus = config.fracture.weibull_modulus; modulus > 0.0 && modulus < 1.0)
-    found.push_back(
-        fmt::format("fracture.weibull_modulus = {}: must be 0 (uniform strength) or from 1 to 1000", modulus));
-  const double energy = config.fracture.fracture_energy;
-  if (energy != 0.0 && !(energy >= 1e-12 && energy <= 1e9))
-    found.push_back(
-        fmt::format("fracture.toughness = {} Pa m^1/2: gives a fracture energy of {:.3g} J/m2, allowed are "
-                    "1e-12 to 1e9 J/m2",
-                    config.fracture.toughness, energy));
+  for (const ToolConfig& tool : config.tools) check_tool(tool, found);
+  check_names(config, found);
   return found;
 }
 

@@ -51,22 +51,39 @@ std::string unit_comment(const Key& key) {
   return has_unit ? fmt::format("[{}] ", si_unit(key.quantity)) : "";
 }
 
-}  // namespace
-
-std::string effective_toml(const RunConfig& config) {
-  std::string text = "# The complete case with every default resolved, in SI units. It can be run again.\n";
-  std::string section;
+// One table of the file: the keys of a section for one element.
+std::string table(const Section& section, const RunConfig& config, std::size_t element) {
+  std::string text;
   for (const Key& key : schema()) {
-    if (key.section != section) text += fmt::format("\n[{}]\n", key.section);
-    section = key.section;
-    if (!applies(key, config)) continue;
-    const Value value = key.get(config);
+    if (key.section != section.name || !applies(key, config, element)) continue;
+    const Value value = key.get(config, element);
     if (!is_unset(key, value)) {
       text +=
           fmt::format("{} = {}  # {}{}\n", key.name, std::visit(Writer{}, value), unit_comment(key), key.description);
     } else if (key.fallback.kind == Fallback::Kind::Absent) {
       text += fmt::format("# {}: {}\n", key.name, key.fallback.text);
     }
+  }
+  return text;
+}
+
+// Brackets for what there may be many of only where there are; parts of several particles are each one's own.
+std::string header(const Section& section, const RunConfig& config) {
+  const bool several = section.scope == Scope::Tool || count(section.scope, config) > 1;
+  if (section.is_part) return several ? fmt::format("[particle.{}]", section.name) : fmt::format("[{}]", section.name);
+  return several ? fmt::format("[[{}]]", section.name) : fmt::format("[{}]", section.name);
+}
+
+}  // namespace
+
+std::string effective_toml(const RunConfig& config) {
+  std::string text = "# The complete case with every default resolved, in SI units. It can be run again.\n";
+  for (std::size_t first = 0, last = 0; first < sections().size(); first = last) {
+    const Scope scope = sections()[first].scope;
+    while (last < sections().size() && sections()[last].scope == scope) ++last;
+    for (std::size_t element = 0; element < count(scope, config); ++element)
+      for (std::size_t i = first; i < last; ++i)
+        text += "\n" + header(sections()[i], config) + "\n" + table(sections()[i], config, element);
   }
   return text;
 }

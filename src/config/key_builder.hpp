@@ -7,10 +7,10 @@
 
 namespace knap {
 
-/// How a key's value is read from and written to the configuration.
+/// How a key's value is read from and written to an element of the configuration.
 struct Access {
-  std::function<Value(const RunConfig&)> get;
-  std::function<void(RunConfig&, const Value&)> set;
+  std::function<Value(const RunConfig&, std::size_t)> get;
+  std::function<void(RunConfig&, std::size_t, const Value&)> set;
 };
 
 inline void assign(double& field, const Value& value) { field = std::get<double>(value); }
@@ -18,12 +18,16 @@ inline void assign(std::optional<double>& field, const Value& value) { field = s
 inline void assign(std::int64_t& field, const Value& value) { field = std::get<std::int64_t>(value); }
 inline void assign(int& field, const Value& value) { field = static_cast<int>(std::get<std::int64_t>(value)); }
 inline void assign(bool& field, const Value& value) { field = std::get<bool>(value); }
+inline void assign(std::optional<bool>& field, const Value& value) { field = std::get<bool>(value); }
+inline void assign(std::optional<Vec3>& field, const Value& value) { field = std::get<Vec3>(value); }
 inline void assign(Vec3& field, const Value& value) { field = std::get<Vec3>(value); }
 inline void assign(std::string& field, const Value& value) { field = std::get<std::string>(value); }
 inline void assign(std::filesystem::path& field, const Value& value) { field = std::get<std::string>(value); }
 
 inline Value value_of(double field) { return field; }
 inline Value value_of(const std::optional<double>& field) { return field ? Value(*field) : Value(); }
+inline Value value_of(const std::optional<bool>& field) { return field ? Value(*field) : Value(); }
+inline Value value_of(const std::optional<Vec3>& field) { return field ? Value(*field) : Value(); }
 inline Value value_of(std::int64_t field) { return field; }
 inline Value value_of(int field) { return std::int64_t{field}; }
 inline Value value_of(bool field) { return field; }
@@ -31,20 +35,24 @@ inline Value value_of(const Vec3& field) { return field; }
 inline Value value_of(const std::string& field) { return field.empty() ? Value() : Value(field); }
 inline Value value_of(const std::filesystem::path& field) { return value_of(field.string()); }
 
-/// Access to config.*section.*member.
-template <class Section, class Member>
-Access field(Section RunConfig::*section, Member Section::*member) {
-  return {[=](const RunConfig& config) { return value_of(config.*section.*member); },
-          [=](RunConfig& config, const Value& value) { assign(config.*section.*member, value); }};
+/// Access to place(config, element).*member; `place` takes a constant configuration too.
+template <class Place, class Section, class Member>
+Access field(Place place, Member Section::*member) {
+  return {[=](const RunConfig& config, std::size_t element) { return value_of(place(config, element).*member); },
+          [=](RunConfig& config, std::size_t element, const Value& value) {
+            assign(place(config, element).*member, value);
+          }};
 }
 
 /// Access to an enumeration; `words` are its enumerators in order.
-template <class Section, class Enum>
-Access choice(Section RunConfig::*section, Enum Section::*member, const std::vector<std::string>& words) {
-  return {[=](const RunConfig& config) { return Value(words.at(static_cast<std::size_t>(config.*section.*member))); },
-          [=](RunConfig& config, const Value& value) {
+template <class Place, class Section, class Enum>
+Access choice(Place place, Enum Section::*member, const std::vector<std::string>& words) {
+  return {[=](const RunConfig& config, std::size_t element) {
+            return Value(words.at(static_cast<std::size_t>(place(config, element).*member)));
+          },
+          [=](RunConfig& config, std::size_t element, const Value& value) {
             const auto word = std::find(words.begin(), words.end(), std::get<std::string>(value));
-            config.*section.*member = static_cast<Enum>(word - words.begin());
+            place(config, element).*member = static_cast<Enum>(word - words.begin());
           }};
 }
 
@@ -89,7 +97,7 @@ inline Key integer(std::string name, std::string_view allowed, Fallback fallback
   return key;
 }
 
-/// Words, true or false, or a file: what has no range.
+/// Words, true or false, a file or a name: what has no range.
 inline Key word(std::string name, KeyType type, std::vector<std::string> choices, Fallback fallback, Access access,
                 std::string description) {
   return {.name = std::move(name),

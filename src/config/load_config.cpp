@@ -8,11 +8,9 @@
 #include <fstream>
 #include <optional>
 
-#include "config/case_document.hpp"
 #include "config/derived_values.hpp"
+#include "config/given_keys.hpp"
 #include "config/material_presets.hpp"
-#include "config/read_value.hpp"
-#include "config/schema.hpp"
 #include "config/toml_guard.hpp"
 #include "core/errors.hpp"
 
@@ -21,23 +19,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Problems = std::vector<std::string>;
-
-// A key's value and where it was given.
-struct Given {
-  Value value;
-  std::string place;
-  bool from_command_line = false;
-};
-using GivenKeys = std::vector<std::optional<Given>>;  // in the order of the schema
-
-std::size_t row_of(const Key& key) { return static_cast<std::size_t>(&key - schema().data()); }
-
-std::string full_name(const Key& key) { return key.section + "." + key.name; }
-
-bool is_section(const std::string& name) {
-  const auto names = section_names();
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
 
 void throw_if_any(const Problems& problems) {
   if (problems.empty()) return;
@@ -48,69 +29,24 @@ void throw_if_any(const Problems& problems) {
   throw InputError(text);
 }
 
-// A name from the user, on one line and of a bearable length.
-std::string shown(const std::string& name) {
-  const std::string quoted = as_text({name});
-  return quoted.substr(1, quoted.size() - 2);
-}
-
-// "; speed belongs to [impact]" when a section has a key of that name, else the nearest key of `section`.
-std::string key_advice(const std::string& section, const std::string& key) {
-  const std::string near = suggestion(key, key_names(section));
-  for (const std::string& other : section_names())
-    if (other != section && find_key(other, key)) return fmt::format("; {} belongs to [{}]", key, other);
-  return near;
-}
-
-std::string unknown_key(const Entry& entry) {
-  if (!entry.section.empty())
-    return fmt::format("{}: [{}] has no key \"{}\"{}", entry.place, entry.section, shown(entry.key),
-                       key_advice(entry.section, entry.key));
-  if (is_section(entry.key))
-    return fmt::format("{}: {} = {}: is a section, write [{}] on a line of its own", entry.place, entry.key,
-                       as_text(entry.value), entry.key);
-  return fmt::format("{}: {} = {}: stands outside any section{}", entry.place, shown(entry.key), as_text(entry.value),
-                     key_advice("", entry.key));
-}
-
-std::string unknown_section(const std::string& place, const std::string& section) {
-  return fmt::format("{}: unknown section [{}]{}", place, shown(section), suggestion(section, section_names()));
-}
-
-// Checks every entry by itself; a later one (the command line) replaces an earlier one.
-GivenKeys check_entries(const CaseDocument& document, const fs::path& folder, Problems& problems) {
-  GivenKeys given(schema().size());
-  for (const auto& [section, place] : document.sections)
-    if (!is_section(section)) problems.push_back(unknown_section(place, section));
-  for (const Entry& entry : document.entries) {
-    if (!entry.section.empty() && !is_section(entry.section)) {
-      if (entry.from_command_line) problems.push_back(unknown_section(entry.place, entry.section));
-      continue;
-    }
-    const Key* key = find_key(entry.section, entry.key);
-    if (!key) {
-      problems.push_back(unknown_key(entry));
-      continue;
-    }
-    ReadValue read = read_value(*key, entry.value, folder);
-    if (!read.problem.empty())
-      problems.push_back(
-          fmt::format("{}: {} = {}: {}", entry.place, full_name(*key), as_text(entry.value), read.problem));
-    given[row_of(*key)] = Given{std::move(read.value), entry.place, entry.from_command_line};
-  }
-  return given;
-}
-
 Value trusted_value(const Key& key, const std::string& text) {
   ReadValue read = read_value(key, parse_loose_value(text), {});
   assert(read.problem.empty());
   return std::move(read.value);
 }
 
+std::size_t row(const char* section, const char* key) { return row_of(*find_key(section, key)); }
+
+bool is_fracture_energy(const Key& key) { return key.name == "fracture_energy" || key.name == "toughness"; }
+
+bool has_fracture_energy(const KeyLayer& layer) {
+  return layer[row("fracture", "fracture_energy")] || layer[row("fracture", "toughness")];
+}
+
 // Of the two names of one quantity the command line's wins over the file's; two from one source contradict.
-void settle_fracture_energy(GivenKeys& given, Problems& problems) {
-  auto& energy = given[row_of(*find_key("fracture", "fracture_energy"))];
-  auto& toughness = given[row_of(*find_key("fracture", "toughness"))];
+void settle_fracture_energy(KeyLayer& given, Problems& problems) {
+  auto& energy = given[row("fracture", "fracture_energy")];
+  auto& toughness = given[row("fracture", "toughness")];
   if (!energy || !toughness) return;
   if (energy->from_command_line == toughness->from_command_line) {
     problems.push_back(fmt::format("{}: fracture.toughness: give either toughness or fracture_energy (given at {})",
@@ -119,30 +55,88 @@ void settle_fracture_energy(GivenKeys& given, Problems& problems) {
   (energy->from_command_line ? toughness : energy).reset();
 }
 
-// The preset's values that nothing the user gave replaces.
-void add_preset_values(GivenKeys& given) {
-  const auto& chosen = given[row_of(*find_key("material", "preset"))];
+// Fills what a layer leaves open, of [mesh], [material] and [fracture] only. Toughness and energy are one quantity.
+template <class Value>
+void fill(KeyLayer& layer, const Key& key, Value&& value, bool had_energy) {
+  if (!layer[row_of(key)] && !(had_energy && is_fracture_energy(key))) layer[row_of(key)] = value;
+}
+
+void add_preset_values(KeyLayer& layer) {
+  const auto& chosen = layer[row("material", "preset")];
   if (!chosen) return;
-  const bool has_energy = given[row_of(*find_key("fracture", "fracture_energy"))].has_value() ||
-                          given[row_of(*find_key("fracture", "toughness"))].has_value();
+  const bool had_energy = has_fracture_energy(layer);
   for (const PresetValue& value : find_preset(std::get<std::string>(chosen->value))->values) {
     const Key& key = *find_key(value.section, value.key);
-    const bool is_energy = key.name == "fracture_energy" || key.name == "toughness";
-    if (!given[row_of(key)] && !(is_energy && has_energy))
-      given[row_of(key)] = Given{trusted_value(key, value.text), "", false};
+    fill(layer, key, Given{trusted_value(key, value.text), "", false}, had_energy);
   }
+}
+
+// What `common` says of all particles; with `from_command_line_only` only what was said there.
+void add_common_values(KeyLayer& layer, const KeyLayer& common, bool from_command_line_only) {
+  const bool had_energy = has_fracture_energy(layer);
+  for (const Key& key : schema()) {
+    const auto& value = common[row_of(key)];
+    if (!value || !find_section(key.section)->is_part) continue;
+    if (!from_command_line_only || value->from_command_line) fill(layer, key, *value, had_energy);
+  }
+}
+
+// The command line wins over the file, also where it speaks of all particles and the file of one.
+void drop_overridden(KeyLayer& layer, const KeyLayer& common) {
+  const auto is_overridden = [&](const Key& key) {
+    const auto& value = common[row_of(key)];
+    return value && value->from_command_line;
+  };
+  const bool energy_is =
+      is_overridden(*find_key("fracture", "fracture_energy")) || is_overridden(*find_key("fracture", "toughness"));
+  for (const Key& key : schema()) {
+    auto& own = layer[row_of(key)];
+    if (!own || own->from_command_line || !find_section(key.section)->is_part) continue;
+    if (is_overridden(key) || (energy_is && is_fracture_energy(key))) own.reset();
+  }
+}
+
+// Makes each particle's layer complete: its own values, its own preset's, the common ones, the common preset's.
+void settle_particles(GivenKeys& given, Problems& problems) {
+  settle_fracture_energy(given.common, problems);
+  for (KeyLayer& own : given.particles) {
+    settle_fracture_energy(own, problems);
+    drop_overridden(own, given.common);
+    const bool has_own_preset = own[row("material", "preset")].has_value();
+    if (has_own_preset) {
+      add_common_values(own, given.common, true);
+      add_preset_values(own);
+    }
+    add_common_values(own, given.common, false);
+    if (!has_own_preset) add_preset_values(own);
+  }
+}
+
+const KeyLayer& layer(const GivenKeys& given, const Key& key, std::size_t element) {
+  switch (scope(key)) {
+    case Scope::Particle:
+      return given.particles[element];
+    case Scope::Tool:
+      return given.tools[element];
+    case Scope::Case:
+      break;
+  }
+  return given.common;
 }
 
 RunConfig configured(const GivenKeys& given) {
   RunConfig config;
-  for (const Key& key : schema()) {
-    const auto& own = given[row_of(key)];
-    if (own) {
-      key.set(config, own->value);
-    } else if (key.fallback.kind == Fallback::Kind::Text) {
-      key.set(config, trusted_value(key, key.fallback.text));
+  config.particles.resize(given.particles.size());
+  config.tools.resize(given.tools.size());
+  for (const Key& key : schema())
+    for (std::size_t element = 0; element < count(scope(key), config); ++element) {
+      const auto& own = layer(given, key, element)[row_of(key)];
+      if (own) {
+        key.set(config, element, own->value);
+      } else if (key.fallback.kind == Fallback::Kind::Text) {
+        key.set(config, element, trusted_value(key, key.fallback.text));
+      }
     }
-  }
   return config;
 }
 
@@ -157,11 +151,24 @@ bool is_in_presets(const Key& key) {
   return std::find(names.begin(), names.end(), key.name) != names.end();
 }
 
-std::string missing(const Key& key, const CaseDocument& document) {
-  const auto header = document.sections.find(key.section);
-  std::string text =
-      fmt::format("{}: {} is missing: {}", header == document.sections.end() ? document.file : header->second,
-                  full_name(key), key.description);
+// Where the section of a key begins for that element, else the file.
+std::string header_place(const Key& key, std::size_t element, const CaseDocument& document) {
+  const auto find = [&](const TableName& name) { return document.tables.find(name); };
+  const Section& section = *find_section(key.section);
+  const int number = static_cast<int>(element);
+  const std::array<TableName, 4> names =
+      section.is_part
+          ? std::array<TableName, 4>{TableName{"particle", key.section, number}, TableName{"particle", key.section},
+                                     TableName{key.section}, TableName{"particle", "", number}}
+          : std::array<TableName, 4>{TableName{key.section, "", number}, TableName{key.section}, {}, {}};
+  for (const TableName& name : names)
+    if (const auto found = find(name); found != document.tables.end()) return found->second;
+  return document.file;
+}
+
+std::string missing(const Key& key, std::size_t element, const CaseDocument& document) {
+  std::string text = fmt::format("{}: {} is missing: {}", header_place(key, element, document), full_name(key, false),
+                                 key.description);
   if (!key.range.text.empty() && key.quantity != Quantity::Ratio)
     text += fmt::format(" For instance {} = {}.", key.name, example(key));
   if (is_in_presets(key)) text += " A material.preset gives it too.";
@@ -170,24 +177,52 @@ std::string missing(const Key& key, const CaseDocument& document) {
   return text;
 }
 
-// Keys that are missing, and keys that mean nothing for the chosen shape.
-void check_presence(const GivenKeys& given, const RunConfig& config, const CaseDocument& document, Problems& problems) {
+// A section that holds something required and is not there at all.
+void check_sections(const CaseDocument& document, std::span<const Override> overrides, const RunConfig& config,
+                    Problems& problems) {
   for (const char* section : {"particle", "material", "impact"}) {
-    const bool on_command_line = std::any_of(document.entries.begin(), document.entries.end(),
-                                             [&](const Entry& entry) { return entry.section == section; });
-    if (!document.sections.contains(section) && !on_command_line)
+    const bool on_command_line = std::any_of(overrides.begin(), overrides.end(), [&](const Override& item) {
+      return std::find(item.path.begin(), item.path.end() - 1, section) != item.path.end() - 1;
+    });
+    const bool in_file = std::any_of(document.tables.begin(), document.tables.end(), [&](const auto& table) {
+      return table.first.section == section || table.first.part == section;
+    });
+    const bool is_needed =
+        section != std::string_view("impact") || is_required(*find_key("impact", "speed"), config, 0);
+    if (!on_command_line && !in_file && is_needed)
       problems.push_back(fmt::format("{}: the section [{}] is missing", document.file, section));
   }
+}
+
+// Whether a key that was given to all has a meaning for none of them.
+bool applies_to_none(const Key& key, const RunConfig& config) {
+  for (std::size_t element = 0; element < count(scope(key), config); ++element)
+    if (applies(key, config, element)) return false;
+  return true;
+}
+
+// Keys that are missing, and keys that mean nothing for the chosen shape.
+void check_presence(const GivenKeys& own, const GivenKeys& settled, const RunConfig& config,
+                    const CaseDocument& document, Problems& problems) {
+  const auto refuse = [&](const Key& key, const Given& given, bool of_one_element) {
+    problems.push_back(fmt::format("{}: {} does not apply: it needs that {}", given.place,
+                                   full_name(key, of_one_element), key.applies.text));
+  };
   for (const Key& key : schema()) {
-    const auto& own = given[row_of(key)];
-    if (own && !applies(key, config))
-      problems.push_back(
-          fmt::format("{}: {} does not apply: it needs that {}", own->place, full_name(key), key.applies.text));
-    if (!own && is_required(key, config)) problems.push_back(missing(key, document));
+    const auto& common = own.common[row_of(key)];
+    if (common && applies_to_none(key, config)) refuse(key, *common, false);
+    for (std::size_t element = 0; element < count(scope(key), config); ++element) {
+      const auto& given = layer(own, key, element)[row_of(key)];
+      if (given && scope(key) != Scope::Case && !applies(key, config, element)) refuse(key, *given, true);
+      if (!layer(settled, key, element)[row_of(key)] && is_required(key, config, element))
+        problems.push_back(missing(key, element, document));
+    }
   }
-  const bool breaks = config.fracture.insertion != Insertion::None;
-  if (breaks && config.fracture.fracture_energy == 0.0 && config.fracture.toughness == 0.0)
-    problems.push_back(missing(*find_key("fracture", "fracture_energy"), document));
+  for (std::size_t i = 0; i < config.particles.size(); ++i) {
+    const FractureConfig& fracture = config.particles[i].fracture;
+    if (fracture.insertion != Insertion::None && fracture.fracture_energy == 0.0 && fracture.toughness == 0.0)
+      problems.push_back(missing(*find_key("fracture", "fracture_energy"), i, document));
+  }
 }
 
 std::string file_text(const fs::path& file) {
@@ -209,15 +244,17 @@ std::string file_text(const fs::path& file) {
 }  // namespace
 
 RunConfig config_from_text(std::string_view text, const fs::path& case_file, std::span<const std::string> overrides) {
-  CaseDocument document = parse_document(text, case_file.string());
-  for (const std::string& item : overrides) document.entries.push_back(parse_override(item));
+  const CaseDocument document = parse_document(text, case_file.string());
+  std::vector<Override> items;
+  for (const std::string& item : overrides) items.push_back(parse_override(item));
   Problems problems;
-  GivenKeys given = check_entries(document, fs::absolute(case_file).parent_path(), problems);
+  const GivenKeys given = read_given_keys(document, items, fs::absolute(case_file).parent_path(), problems);
   throw_if_any(problems);
-  settle_fracture_energy(given, problems);
-  add_preset_values(given);
-  RunConfig config = configured(given);
-  check_presence(given, config, document, problems);
+  GivenKeys settled = given;
+  settle_particles(settled, problems);
+  RunConfig config = configured(settled);
+  check_sections(document, items, config, problems);
+  check_presence(given, settled, config, document, problems);
   throw_if_any(problems);
   add_derived_values(config);
   for (const std::string& contradiction : contradictions(config))

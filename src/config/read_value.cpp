@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
@@ -28,6 +29,8 @@ std::string type_advice(const Key& key) {
       return "must be true or false";
     case KeyType::Choice:
       return "must be a word in quotes";
+    case KeyType::Name:
+      return "must be a word in quotes of letters, digits, - and _, beginning with a letter, of at most 40 characters";
     case KeyType::File:
       break;
   }
@@ -110,6 +113,17 @@ ReadValue read_choice(const Key& key, const RawValue& raw) {
   return {{}, fmt::format("must be one of {}{}", list, suggestion(*word, key.choices))};
 }
 
+ReadValue read_name(const Key& key, const RawValue& raw) {
+  constexpr std::size_t longest_name = 40;
+  const auto* word = std::get_if<std::string>(&raw.data);
+  const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  const auto fits = [&](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_'; };
+  if (!word || word->empty() || word->size() > longest_name || !is_letter(word->front()) ||
+      !std::all_of(word->begin(), word->end(), fits))
+    return {{}, type_advice(key)};
+  return {*word, ""};
+}
+
 // A path as absolute text that effective.toml can hold.
 ReadValue read_file(const Key& key, const RawValue& raw, const std::filesystem::path& folder) {
   const auto* text = std::get_if<std::string>(&raw.data);
@@ -146,6 +160,8 @@ ReadValue read_value(const Key& key, const RawValue& raw, const std::filesystem:
       return read_choice(key, raw);
     case KeyType::File:
       return read_file(key, raw, folder);
+    case KeyType::Name:
+      return read_name(key, raw);
     case KeyType::Switch:
       break;
   }

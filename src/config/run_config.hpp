@@ -3,22 +3,11 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/types.hpp"
 
 namespace knap {
-
-enum class ParticleShape { Sphere, Ellipsoid, Box, MeshFile };
-
-struct ParticleConfig {
-  ParticleShape shape = ParticleShape::Sphere;
-  double diameter = 0.0;            ///< sphere [m]
-  Vec3 diameters = Vec3::Zero();    ///< ellipsoid, along x, y, z [m]
-  Vec3 lengths = Vec3::Zero();      ///< box, along x, y, z [m]
-  std::filesystem::path mesh_file;  ///< Gmsh .msh, absolute; written relative to the case file's folder
-  double mesh_scale = 1.0;          ///< metres per unit of mesh_file
-  bool operator==(const ParticleConfig&) const = default;
-};
 
 inline constexpr std::int64_t not_given = -1;  ///< a seed that run.seed replaces
 
@@ -66,13 +55,61 @@ struct FractureConfig {
   bool operator==(const FractureConfig&) const = default;
 };
 
+enum class ParticleShape { Sphere, Ellipsoid, Box, MeshFile };
+
+/// A particle with all that is its own. [mesh], [material] and [fracture] are those of every particle that has no
+/// [particle.mesh] and so on.
+struct ParticleConfig {
+  std::string name;  ///< default: particle1, particle2, ...
+  ParticleShape shape = ParticleShape::Sphere;
+  double diameter = 0.0;            ///< sphere [m]
+  Vec3 diameters = Vec3::Zero();    ///< ellipsoid, along x, y, z [m]
+  Vec3 lengths = Vec3::Zero();      ///< box, along x, y, z [m]
+  std::filesystem::path mesh_file;  ///< Gmsh .msh, absolute; written relative to the case file's folder
+  double mesh_scale = 1.0;          ///< metres per unit of mesh_file
+  std::optional<Vec3> position;  ///< of the shape's centre, or of a mesh file's origin [m]; absent = just above z = 0
+  std::optional<Vec3> velocity;  ///< at the start [m/s]; absent = that of [impact]
+  std::optional<Vec3> spin;      ///< at the start [rad/s]; absent = that of [impact]
+  MeshConfig mesh;
+  MaterialConfig material;
+  FractureConfig fracture;
+  bool operator==(const ParticleConfig&) const = default;
+};
+
 struct ImpactConfig {
-  double speed = 0.0;          ///< [m/s]
+  double speed = 0.0;          ///< [m/s]; 0 = none given, at rest
   double angle = 0.0;          ///< from the wall plane [rad]; pi/2 = normal
   double azimuth = 0.0;        ///< of the tangential velocity, from x towards y [rad]
   Vec3 spin = Vec3::Zero();    ///< angular velocity at the start [rad/s]
+  std::optional<bool> wall;    ///< whether there is the plane z = 0; absent = where there are no tools
   double wall_friction = 0.0;  ///< [-]
   bool operator==(const ImpactConfig&) const = default;
+};
+
+enum class ToolKind { Plane, Platen, Sphere, Cylinder, Stl };
+enum class MotionKind { Rest, Velocity, Ramp, Rotation, Free };
+
+/// A rigid body that loads the particle.
+struct ToolConfig {
+  std::string name;  ///< default: tool1, tool2, ...
+  ToolKind type = ToolKind::Plane;
+  double radius = 0.0;           ///< platen, sphere, cylinder [m]
+  double length = 0.0;           ///< cylinder [m]
+  double thickness = 0.0;        ///< platen [m]
+  Vec3 normal = Vec3::UnitZ();   ///< plane and platen: outward; stl: where the file's z axis points; any length
+  Vec3 axis = Vec3::UnitY();     ///< of a cylinder; any length
+  std::filesystem::path file;    ///< stl, absolute
+  double scale = 1.0;            ///< metres per unit of the file
+  std::optional<Vec3> position;  ///< of the tool's centre or of its face's [m]; absent = just touching the particle
+  double friction = 0.0;         ///< Coulomb [-]
+  MotionKind motion = MotionKind::Rest;
+  Vec3 velocity = Vec3::Zero();         ///< the final one of a ramp, the first one of a free tool [m/s]
+  double ramp_time = 0.0;               ///< [s]
+  double angular_speed = 0.0;           ///< [rad/s]
+  Vec3 rotation_axis = Vec3::UnitZ();   ///< any length
+  Vec3 rotation_centre = Vec3::Zero();  ///< a point on the axis [m]
+  double mass = 0.0;                    ///< of a free tool [kg]
+  bool operator==(const ToolConfig&) const = default;
 };
 
 struct TimeConfig {
@@ -81,6 +118,7 @@ struct TimeConfig {
   int threads = 0;                 ///< 0 = all processors
   int insertion_interval = 4;      ///< steps between two checks of the insertion criterion
   std::int64_t seed = 0;           ///< of everything random without a seed of its own
+  Vec3 gravity = Vec3::Zero();     ///< [m/s2]
   bool operator==(const TimeConfig&) const = default;
 };
 
@@ -93,14 +131,15 @@ struct OutputConfig {
 };
 
 struct RunConfig {
-  ParticleConfig particle;
-  MeshConfig mesh;
-  MaterialConfig material;
-  FractureConfig fracture;
+  std::vector<ParticleConfig> particles = std::vector<ParticleConfig>(1);  ///< at least one
   ImpactConfig impact;
+  std::vector<ToolConfig> tools;
   TimeConfig run;
   OutputConfig output;
   bool operator==(const RunConfig&) const = default;
 };
+
+/// Whether the plane z = 0 is a wall.
+inline bool has_wall(const RunConfig& config) { return config.impact.wall.value_or(config.tools.empty()); }
 
 }  // namespace knap

@@ -27,7 +27,7 @@ struct QuantityRow {
 };
 
 // In the order of enum Quantity.
-constexpr std::array<QuantityRow, 11> quantities{{
+constexpr std::array<QuantityRow, static_cast<std::size_t>(Quantity::Count)> quantities{{
     {"a ratio", "-", "%", "0.3", {}},
     {"a length", "m", "m, cm, mm, um", "2 mm", {2, 0, 0, 0}},
     {"a volume", "m3", "m3, cm3, mm3", "1 mm3", {6, 0, 0, 0}},
@@ -39,6 +39,8 @@ constexpr std::array<QuantityRow, 11> quantities{{
     {"a density", "kg/m3", "kg/m3, g/cm3", "1270 kg/m3", {-6, 2, 0, 0}},
     {"an energy per area", "J/m2", "J/m2, N/m, mJ/mm2", "8.6 J/m2", {0, 2, -4, 0}},
     {"a fracture toughness", "Pa m^1/2", "Pa m^1/2, kPa m^1/2, MPa m^1/2", "0.2 MPa m^1/2", {-1, 2, -4, 0}},
+    {"a mass", "kg", "kg, g, mg", "5 g", {0, 2, 0, 0}},
+    {"an acceleration", "m/s2", "m/s2, mm/s2", "9.81 m/s2", {2, 0, -4, 0}},
 }};
 
 const QuantityRow& row(Quantity quantity) { return quantities[static_cast<std::size_t>(quantity)]; }

@@ -18,7 +18,10 @@ enum class Quantity {
   Stress,         ///< [Pa]
   Density,        ///< [kg/m3]
   SurfaceEnergy,  ///< [J/m2]
-  Toughness       ///< [Pa m^1/2]
+  Toughness,      ///< [Pa m^1/2]
+  Mass,           ///< [kg]
+  Acceleration,   ///< [m/s2]
+  Count
 };
 
 std::string_view name(Quantity quantity);          ///< "a speed"

@@ -12,7 +12,7 @@ struct alignas(64) TetStress {
 };
 
 /// The stresses of all tets, and for each at least the magnitude of its traction on any plane [Pa]: sixteen of these
-/// fit where one stress does.
+/// fit where one stress does. Minus infinity where a tet sleeps: none of its facets is overloaded.
 struct TetStresses {
   std::span<const TetStress> stress;
   std::span<const float> bound;

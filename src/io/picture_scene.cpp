@@ -1,21 +1,15 @@
 #include "io/picture_scene.hpp"
 
 #include <vtkAutoInit.h>
-#include <vtkImageData.h>
-#include <vtkImageShrink3D.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
-#include <vtkUnsignedCharArray.h>
-#include <vtkWindowToImageFilter.h>
-
-#include <algorithm>
 
 #include "core/errors.hpp"
 #include "io/picture_captions.hpp"
 #include "io/picture_views.hpp"
 #include "io/vtk_threads.hpp"
+#include "io/window_image.hpp"
 
 VTK_MODULE_INIT(vtkRenderingOpenGL2)
 VTK_MODULE_INIT(vtkRenderingFreeType)
@@ -23,7 +17,6 @@ VTK_MODULE_INIT(vtkRenderingFreeType)
 namespace knap {
 namespace {
 
-constexpr int enlargement = 2;         // drawn larger and averaged: smooth edges whatever the OpenGL
 constexpr double views_bottom = 0.15;  // share of the height
 constexpr double views_top = 0.86;
 
@@ -41,33 +34,6 @@ void add_view(vtkRenderWindow* window, int column, AddView&& add) {
   view->SetViewport(column / 3.0, views_bottom, (column + 1) / 3.0, views_top);
   add_layer(window, view, Views);
   add(view.Get());
-}
-
-/// Throws RuntimeFailure for a picture of one colour: OpenGL can fail without a word.
-void check_drawn(vtkImageData* image) {
-  const auto* first = static_cast<const unsigned char*>(image->GetScalarPointer());
-  const auto size = static_cast<std::size_t>(3 * image->GetNumberOfPoints());
-  const bool one_colour = std::equal(first + 3, first + size, first);
-  if (one_colour) throw RuntimeFailure("OpenGL drew nothing");
-}
-
-std::string png_of(vtkRenderWindow* window) {
-  vtkNew<vtkWindowToImageFilter> grab;
-  grab->SetInput(window);
-  grab->SetInputBufferTypeToRGB();
-  grab->ReadFrontBufferOff();
-  vtkNew<vtkImageShrink3D> average;
-  average->SetInputConnection(grab->GetOutputPort());
-  average->SetShrinkFactors(enlargement, enlargement, 1);
-  average->MeanOn();
-  average->Update();
-  check_drawn(average->GetOutput());
-  vtkNew<vtkPNGWriter> writer;
-  writer->SetInputConnection(average->GetOutputPort());
-  writer->WriteToMemoryOn();
-  writer->Write();
-  vtkUnsignedCharArray* bytes = writer->GetResult();
-  return {reinterpret_cast<const char*>(bytes->GetPointer(0)), static_cast<std::size_t>(bytes->GetNumberOfValues())};
 }
 
 }  // namespace

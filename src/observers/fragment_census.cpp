@@ -73,7 +73,7 @@ std::vector<double> tet_damage(const Simulation& s) {
 }
 
 Rebound rebound(const Simulation& s) {
-  const Vec3 normal = s.options.wall ? s.options.wall->normal : Vec3::UnitZ();
+  const Vec3 normal = s.tools.empty() ? Vec3::UnitZ() : s.tools.front().state.orientation * Vec3::UnitZ();
   const Vec3 start = s.reference.start.velocity();
   const Vec3 now = momentum(s.nodes).velocity();
   const Vec3 along = start - start.dot(normal) * normal;
@@ -85,9 +85,12 @@ Rebound rebound(const Simulation& s) {
 MomentumErrors momentum_errors(const Simulation& s, double radius) {
   const Momentum& start = s.reference.start;
   const Momentum now = momentum(s.nodes);
-  const Vec3 linear = now.linear - start.linear - s.totals.wall.impulse - s.totals.added_linear;
-  const Vec3 angular =
-      now.angular - start.angular - s.totals.wall.moment - s.totals.added_angular - pending_angular_momentum(s.cracks);
+  Vec3 linear = now.linear - start.linear - s.totals.added_linear;
+  Vec3 angular = now.angular - start.angular - s.totals.added_angular - pending_angular_momentum(s.cracks);
+  for (const Tool& tool : s.tools) {
+    linear -= tool.state.impulse;
+    angular -= tool.state.angular_impulse;
+  }
   const double incident = start.linear.norm();
   return {ratio(linear.norm(), incident), ratio(angular.norm(), std::max(incident * radius, start.angular.norm()))};
 }

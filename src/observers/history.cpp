@@ -67,7 +67,7 @@ void History::add_row(const Simulation& s) {
   if (!table_) table_ = CsvTable::create(path_, column_names());
   if (s.clock.step == last_step_) return;
   const double time = s.clock.time();
-  const Vec3& impulse = s.totals.wall.impulse;
+  const Vec3 impulse = s.tools.empty() ? Vec3(Vec3::Zero()) : s.tools.front().state.impulse;
   const Vec3 force = time > last_time_ ? Vec3((impulse - last_impulse_) / (time - last_time_)) : Vec3::Zero();
   const CrackCensus cracks = crack_census(s);
 

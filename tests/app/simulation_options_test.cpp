@@ -20,7 +20,7 @@ TEST(SimulationOptions, NormalImpactHasExactlyNoTangentialVelocity) {
 TEST(SimulationOptions, AngleIsFromTheWallAndAzimuthFromXTowardsY) {
   const auto oblique = simulation_options(config({"impact.angle=30deg", "impact.azimuth=90deg"}));
   EXPECT_NEAR((oblique.velocity - 20.0 * Vec3(0.0, std::sqrt(0.75), -0.5)).norm(), 0.0, 1e-14);
-  EXPECT_EQ(oblique.wall->normal, Vec3::UnitZ());
+  EXPECT_EQ(oblique.tools.at(0).orientation * Vec3::UnitZ(), Vec3::UnitZ());
 }
 
 TEST(SimulationOptions, UnbreakableParticleHasNoFracture) {
@@ -31,7 +31,7 @@ TEST(SimulationOptions, UnbreakableParticleHasNoFracture) {
 TEST(SimulationOptions, FrictionLawIsPassedOn) {
   const auto blended = simulation_options(config({"fracture.crack_friction=blended", "impact.wall_friction=0.7"}));
   EXPECT_EQ(blended.fracture->law.softening_friction, SofteningFriction::Blended);
-  EXPECT_EQ(blended.wall->friction, 0.7);
+  EXPECT_EQ(blended.tools.at(0).friction, 0.7);
 }
 
 }  // namespace

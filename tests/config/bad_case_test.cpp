@@ -174,7 +174,8 @@ TEST(BadCase, DuplicatesNameBothLines) {
 
 TEST(BadCase, SectionsMustBeSections) {
   EXPECT_THAT(complaint("particle = 3\n"), HasSubstr("case.toml:1:12: particle = 3: is a section, write [particle]"));
-  EXPECT_THAT(complaint("[[particle]]\ndiameter = 1\n"), HasSubstr("is a section, write [particle]"));
+  EXPECT_THAT(complaint(shortest + "[[run]]\nseed = 1\n"),
+              StartsWith("case.toml:7:1: [[run]]: there is one of it, write [run]"));
 }
 
 TEST(BadCase, OverridesNeedTheirForm) {

@@ -59,8 +59,8 @@ TEST(EffectiveToml, GivesAUnitForEachKey) {
 
 TEST(EffectiveToml, QuotesOddPaths) {
   RunConfig config = config_of(shortest);
-  config.particle.shape = ParticleShape::MeshFile;
-  config.particle.mesh_file = "/data/a \"b\"\\c\n\u00fc.msh";
+  config.particles[0].shape = ParticleShape::MeshFile;
+  config.particles[0].mesh_file = "/data/a \"b\"\\c\n\u00fc.msh";
   EXPECT_THAT(effective_toml(config), HasSubstr("mesh_file = \"/data/a \\\"b\\\"\\\\c\\u000A\u00fc.msh\""));
 }
 

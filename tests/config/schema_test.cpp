@@ -48,12 +48,26 @@ TEST(Schema, DefaultsAndPresetsFitTheirKeys) {
 
 TEST(Schema, SetAndGetReachTheSameField) {
   RunConfig config;
+  config.particles.resize(3);
+  config.tools.resize(3);
   for (const Key& key : schema()) {
     if (key.type != KeyType::Quantity) continue;
-    key.set(config, 0.123);
-    EXPECT_EQ(std::get<double>(key.get(config)), 0.123) << key.name;
-    key.set(config, 0.0);
+    const std::size_t last = count(scope(key), config) - 1;
+    key.set(config, last, 0.123);
+    EXPECT_EQ(std::get<double>(key.get(config, last)), 0.123) << key.name;
+    key.set(config, last, 0.0);
+    if (last > 0) {
+      EXPECT_NE(key.get(config, 0), Value(0.123)) << key.name;
+    }
   }
+}
+
+TEST(Schema, SectionsOfOneScopeFollowEachOther) {
+  std::vector<Scope> scopes;
+  for (const Section& section : sections())
+    if (scopes.empty() || scopes.back() != section.scope) scopes.push_back(section.scope);
+  EXPECT_EQ(scopes.size(), std::set<Scope>(scopes.begin(), scopes.end()).size());
+  for (const Key& key : schema()) EXPECT_NE(find_section(key.section), nullptr) << key.section;
 }
 
 TEST(Schema, RangesReadAsWords) {

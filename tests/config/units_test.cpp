@@ -65,7 +65,8 @@ TEST(Units, AWrongDimensionNamesBothKindsAndSampleUnits) {
   EXPECT_THAT(text, HasSubstr("m/s, mm/s, km/s, km/h"));
   EXPECT_THAT(problem("5", Length), HasSubstr("unit is missing"));
   EXPECT_THAT(problem("5 m", Ratio), HasSubstr("measures a length"));
-  EXPECT_THAT(problem("5 kg", Length), HasSubstr("\"kg\" does not fit"));
+  EXPECT_THAT(problem("5 kg", Length), HasSubstr("\"kg\" measures a mass"));
+  EXPECT_THAT(problem("5 kg2", Length), HasSubstr("\"kg2\" does not fit"));
 }
 
 TEST(Units, AnUnknownUnitGetsASuggestion) {

@@ -22,7 +22,7 @@ void expect_consistent(const ElementBlocks& blocks, const Topology& topology) {
         const LocalCorners& corners = blocks.corners[at((block.first_group + g) * lanes + lane)];
         if (tet == none) continue;
         ++seen[at(tet)];
-        EXPECT_EQ(block_of_tet(blocks, tet), to_index(b));
+        EXPECT_EQ(blocks.block_of_tet[at(tet)], to_index(b));
         for (std::size_t i = 0; i < 4; ++i) {
           ASSERT_EQ(block.nodes[corners[i] / node_stride], topology.tet_nodes[at(tet)][i]);
           blocks_of_node[at(topology.tet_nodes[at(tet)][i])].insert(to_index(b));

@@ -93,6 +93,8 @@ std::vector<std::string> tokens() {
     all.push_back(key.name);
     all.push_back(key.name + " = ");
     all.push_back("[" + key.section + "]\n");
+    all.push_back("[[" + key.section + "]]\n");
+    all.push_back("\n[particle." + key.section + "]\n");
     all.push_back("\n" + key.name + " = " + key.fallback.text + "\n");
     all.insert(all.end(), key.choices.begin(), key.choices.end());
   }
@@ -104,7 +106,13 @@ std::vector<std::string> shipped_cases() {
   for (const auto& entry : std::filesystem::directory_iterator(KNAP_SOURCE_DIR "/cases"))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  std::vector<std::string> texts;
+  std::vector<std::string> texts{
+      "[[particle]]\ndiameter = 0.002\nvelocity = [1, 0, 0]\n[particle.material]\npreset = \"plaster\"\n"
+      "[[particle]]\nname = \"other\"\nshape = \"box\"\nlengths = [0.1, 0.1, 0.1]\nposition = [1, 1, 1]\n"
+      "[particle.fracture]\nstrength = 1e6\n[material]\npreset = \"zeolite_4ak\"\n"
+      "[[tool]]\nname = \"upper\"\ntype = \"platen\"\nradius = 0.01\nnormal = [0, 0, -1]\nmotion = \"ramp\"\n"
+      "velocity = [0, 0, -1]\nramp_time = 1e-6\n[[tool]]\ntype = \"cylinder\"\nradius = 1\nlength = 1\n"
+      "motion = \"rotation\"\nangular_speed = \"18000 rpm\"\nrotation_centre = [0, 0, 0]\n"};
   for (const auto& file : files) {
     std::stringstream text;
     text << std::ifstream(file).rdbuf();
@@ -194,7 +202,9 @@ std::vector<std::string> random_overrides(Random& random, const std::vector<std:
   if (below(random, 4) != 0) return overrides;
   const auto& keys = knap::schema();
   const knap::Key& key = keys[below(random, keys.size())];
-  overrides.push_back(key.section + "." + key.name + "=" + words[below(random, words.size())]);
+  constexpr std::array between{".", ".1.", ".2.", ".mesh.", ".1.material.", ".tool1.", "..", ".x.y.z."};
+  const std::string middle = below(random, 2) == 0 ? "." : between[below(random, between.size())];
+  overrides.push_back(key.section + middle + key.name + "=" + words[below(random, words.size())]);
   if (below(random, 4) == 0) mutate_bytes(overrides.back(), random);
   return overrides;
 }

@@ -59,7 +59,7 @@ void write_baseline(const std::map<std::string, Row>& rows, const std::map<std::
 Simulation impact() {
   Granule granule{.element_size = 0.105e-3, .contact_element_size = 0.105e-3};
   granule.options.fracture = zeolite_fracture();
-  granule.options.wall = Plane{.friction = 0.3};
+  granule.options.tools = {wall(0.3)};
   granule.options.velocity = {0.0, 0.0, -22.0};
   Simulation s = make_granule(granule);
   while (s.clock.time() < 8e-6) EXPECT_EQ(step(s), StepStatus::Ok);
@@ -89,9 +89,9 @@ std::map<std::string, double> numbers_of(const Simulation& s) {
       {"incident_energy_J", incident},
       {"one_plus_closure_error", 1.0 + s.ledger.max_closure_error},
       {"one_plus_linear_error",
-       1.0 + (now.linear - start.linear - s.totals.wall.impulse - s.totals.added_linear).norm() / scale},
-      {"one_plus_angular_error", 1.0 + (now.angular - start.angular - s.totals.wall.moment - s.totals.added_angular -
-                                        pending_angular_momentum(s.cracks))
+       1.0 + (now.linear - start.linear - s.tools[0].state.impulse - s.totals.added_linear).norm() / scale},
+      {"one_plus_angular_error", 1.0 + (now.angular - start.angular - s.tools[0].state.angular_impulse -
+                                        s.totals.added_angular - pending_angular_momentum(s.cracks))
                                                .norm() /
                                            (scale * 0.75e-3)},
       {"mass_sum_fraction", broken.mass_sum_fraction},

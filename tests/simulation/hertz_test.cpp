@@ -28,7 +28,7 @@ ImpactOverHertz impact_of_tets(double group) {
   const double reduced = granule.options.young_modulus / (1.0 - poisson_ratio * poisson_ratio);
   const double speed = std::sqrt(group * reduced / granule.options.density);
   granule.options.poisson_ratio = poisson_ratio;
-  granule.options.wall = Plane{};
+  granule.options.tools = {wall()};
   granule.options.step_safety = 0.8;
   granule.options.velocity = {0.0, 0.0, -speed};
   Simulation s = make_granule(granule);
@@ -39,9 +39,9 @@ ImpactOverHertz impact_of_tets(double group) {
   while (s.clock.time() < 1.25 * duration)
     if (step(s) != StepStatus::Ok) return {};
   EXPECT_LT(s.ledger.max_closure_error, 1e-6);
-  const auto steps_on_wall = static_cast<double>(s.totals.last_wall_step - s.totals.first_wall_step);
-  return {s.totals.max_wall_force / force, steps_on_wall * s.clock.dt / duration,
-          momentum(s.nodes).velocity().z() / speed};
+  const ToolState& wall = s.tools[0].state;
+  const auto steps_on_wall = static_cast<double>(wall.last_step - wall.first_step);
+  return {wall.max_force / force, steps_on_wall * s.clock.dt / duration, momentum(s.nodes).velocity().z() / speed};
 }
 
 ImpactOverHertz axisymmetric_impact(double group, bool small_strain = false) {

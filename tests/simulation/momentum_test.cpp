@@ -48,7 +48,7 @@ TEST(Momentum, FrictionlessObliqueImpactIsTheNormalImpact) {
   const auto impact = [&](double tangential) {
     Granule granule{.element_size = 0.2e-3, .contact_element_size = 0.12e-3};
     granule.options.fracture = zeolite_fracture();
-    granule.options.wall = Plane{};
+    granule.options.tools = {wall()};
     granule.options.velocity = {tangential, 0.0, -speed};
     return make_granule(granule);
   };

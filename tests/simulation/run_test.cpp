@@ -18,7 +18,7 @@ constexpr double quiet_time = 10.0 * crossing_time;
 Simulation cracked_granule() {
   Granule granule{.element_size = 0.2e-3, .contact_element_size = 0.15e-3};
   granule.options.fracture = zeolite_fracture();
-  granule.options.wall = Plane{.friction = 0.3};
+  granule.options.tools = {wall(0.3)};
   granule.options.velocity = {0.0, 0.0, -12.0};
   return make_granule(granule);
 }
@@ -44,7 +44,7 @@ TEST(AutomaticStop, ComesTenCrossingsAfterTheLastDamageThoughThePieceVibrates) {
   Observer* const observers[] = {&history};
   EXPECT_EQ(run_until(s, 50.0 * crossing_time, observers), StopReason::AtRest);
   const double incident = s.reference.incident_energy, end = s.clock.time();
-  const double contact_end = s.clock.dt * static_cast<double>(s.totals.last_wall_step);
+  const double contact_end = s.clock.dt * static_cast<double>(s.tools[0].state.last_step);
   EXPECT_GT(history.at_time(end), 1e-4 * incident);
   EXPECT_GT(end, contact_end + quiet_time);
   EXPECT_LT(end, contact_end + 2.0 * quiet_time);

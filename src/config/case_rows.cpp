@@ -1,0 +1,75 @@
+// The rows of what is one in a case: [impact], [run], [output].
+#include <algorithm>
+
+#include "config/key_builder.hpp"
+#include "config/schema_rows.hpp"
+
+namespace knap {
+namespace {
+
+using enum Quantity;
+
+bool has_nothing_else_to_move(const RunConfig& config, std::size_t) {
+  const auto& particles = config.particles;
+  return config.tools.empty() &&
+         std::any_of(particles.begin(), particles.end(), [](const ParticleConfig& p) { return !p.velocity; });
+}
+
+}  // namespace
+
+std::vector<Key> impact_keys() {
+  using C = ImpactConfig;
+  constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.impact; };
+  const Condition nothing_else_moves{"there is no [[tool]] and a particle has no velocity", has_nothing_else_to_move};
+  const Condition walled{"there is a wall", [](const RunConfig& c, std::size_t) { return has_wall(c); }};
+  return {
+      quantity("speed", Speed, "[1 mm/s, 5 km/s]", required_when(nothing_else_moves), field(in, &C::speed),
+               "Speed of the particle when it meets the wall; of all particles without a velocity of their own."),
+      quantity("angle", Angle, "(0 deg, 90 deg]", value("90 deg"), field(in, &C::angle),
+               "Angle of the path to the wall's plane, 90 deg = normal impact; a bare number is in radians."),
+      quantity("azimuth", Angle, "[-360 deg, 360 deg]", value("0 deg"), field(in, &C::azimuth),
+               "Direction of an oblique path in the wall's plane, from x towards y; a bare number is in radians."),
+      vector("spin", AngularSpeed, "[-1e7 rad/s, 1e7 rad/s]", value("[0, 0, 0]"), field(in, &C::spin),
+             "Angular velocity of the particle at the start, about x, y, z."),
+      word("wall", KeyType::Switch, {}, absent("true, but false where there is a [[tool]]"), field(in, &C::wall),
+           "Whether the plane z = 0 is a wall at rest."),
+      only_when(walled, quantity("wall_friction", Ratio, "[0, 10]", value("0.3"), field(in, &C::wall_friction),
+                                 "Coefficient of friction between particle and wall.")),
+  };
+}
+
+std::vector<Key> run_keys() {
+  using C = TimeConfig;
+  constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.run; };
+  return {
+      quantity("end_time", Time, "[1 ps, 100 s]", absent("automatic: when nothing breaks any more"),
+               field(in, &C::end_time), "Simulated time at which the run ends."),
+      quantity("step_safety", Ratio, "[0.001, 0.9]", value("0.5"), field(in, &C::step_safety),
+               "Time step over the largest stable one."),
+      integer("threads", "[0, 1024]", value("0"), field(in, &C::threads),
+              "Number of threads, 0 = all processors; results do not depend on it."),
+      integer("insertion_interval", "[1, 1000]", value("4"), field(in, &C::insertion_interval),
+              "Time steps between two checks for new cracks."),
+      vector("gravity", Acceleration, "[-1e6 m/s2, 1e6 m/s2]", value("[0, 0, 0]"), field(in, &C::gravity),
+             "Acceleration of gravity along x, y, z."),
+      integer("seed", "[0, 1e15]", value("0"), field(in, &C::seed),
+              "Seed of everything random that is given no seed of its own: mesh.seed, fracture.weibull_seed."),
+  };
+}
+
+std::vector<Key> output_keys() {
+  using C = OutputConfig;
+  constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.output; };
+  return {
+      integer("frames", "[0, 100000]", value("40"), field(in, &C::frames),
+              "Number of VTK frames over the run, 0 = none."),
+      quantity("history_interval", Time, "[1 ps, 100 s]", absent("automatic: about 500 rows"),
+               field(in, &C::history_interval), "Simulated time between two rows of history.csv."),
+      quantity("checkpoint_interval", Time, "[0 s, 604800 s]", value("60 s"), field(in, &C::checkpoint_interval),
+               "Wall-clock time between two checkpoints, 0 = none."),
+      word("picture", KeyType::Switch, {}, value("true"), field(in, &C::picture),
+           "Whether to draw a picture of the final state."),
+  };
+}
+
+}  // namespace knap

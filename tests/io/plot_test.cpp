@@ -1,0 +1,58 @@
+#include "io/plot.hpp"
+
+#include <gtest/gtest.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGReader.h>
+
+#include <limits>
+#include <stdexcept>
+
+#include "core/errors.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace knap {
+namespace {
+
+using Plot = TemporaryFolder;
+
+// Pixels of nearly the colour of the first series.
+int blue_pixels(const std::filesystem::path& png) {
+  vtkNew<vtkPNGReader> reader;
+  reader->SetFileName(png.c_str());
+  reader->Update();
+  vtkImageData* image = reader->GetOutput();
+  EXPECT_EQ(image->GetDimensions()[0], 1200);
+  EXPECT_EQ(image->GetDimensions()[1], 800);
+  int count = 0;
+  for (int y = 0; y < 800; ++y)
+    for (int x = 0; x < 1200; ++x) {
+      const auto* rgb = static_cast<const unsigned char*>(image->GetScalarPointer(x, y, 0));
+      if (rgb[0] < 80 && rgb[1] < 130 && rgb[2] > 120) ++count;
+    }
+  return count;
+}
+
+TEST_F(Plot, ACurveIsThere) {
+  PlotSeries curve{"force", {}, {}};
+  for (int i = 0; i <= 100; ++i) curve.x.push_back(i), curve.y.push_back(i * (100.0 - i));
+  draw_plot(folder / "plot.png", {.title = "a parabola", .x_label = "x [m]", .y_label = "y [N]", .series = {curve}});
+  EXPECT_GT(blue_pixels(folder / "plot.png"), 1000);  // longer than the plot is wide
+  EXPECT_EQ(num_files(), 1u);
+}
+
+TEST_F(Plot, OnePointIsEnough) {
+  draw_plot(folder / "plot.png", {.series = {{"a", {1.0}, {2.0}, PlotSeries::Style::Points}}});
+  EXPECT_GT(blue_pixels(folder / "plot.png"), 10);
+}
+
+TEST_F(Plot, WhatCannotBeDrawnIsRefused) {
+  EXPECT_THROW(draw_plot(folder / "plot.png", {.series = {{"a", {1.0}, {}}}}), std::invalid_argument);
+  EXPECT_THROW(draw_plot(folder / "plot.png", {}), RuntimeFailure);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(draw_plot(folder / "plot.png", {.series = {{"a", {1.0}, {nan}}}}), RuntimeFailure);
+  EXPECT_EQ(num_files(), 0u);
+}
+
+}  // namespace
+}  // namespace knap
