@@ -74,6 +74,8 @@ class EquilibriumSolver {
 
   /// How far the platens come together until both touch [m], of which each travels its share.
   double free_approach() const { return free_approach_; }
+  /// Height of platen k's face where it was given [m].
+  double start_height(int platen) const { return platens_[static_cast<std::size_t>(platen)].point.z(); }
   /// Height of platen k's face [m].
   double height(int platen, double approach) const;
   int iterations() const { return iterations_; }
