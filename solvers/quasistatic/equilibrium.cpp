@@ -242,7 +242,7 @@ void EquilibriumSolver::update_friction(LoadState& state, Index node) const {
   const Vec3 slip(x.x() - contact.anchor.x(), x.y() - contact.anchor.y(), 0.0);
   contact.friction = contact.friction_before - hold_[at(node)] * slip;
   const double held = contact.friction.norm();
-  contact.slides = held >= most;
+  contact.slides = held >= most && !(holds_ && most > 0.0);
   if (contact.slides) contact.friction *= held > 0.0 ? most / held : 0.0;
 }
 
@@ -297,7 +297,8 @@ bool EquilibriumSolver::solve(LoadState& state, double approach) {
     contact.anchor = xyz(state.x[at(i)]);
     contact.friction_before = contact.friction;
   }
-  if (std::none_of(state.contacts.begin(), state.contacts.end(), [](const auto& c) { return c.is_closed; }))
+  holds_ = std::none_of(state.contacts.begin(), state.contacts.end(), [](const auto& c) { return c.is_closed; });
+  if (holds_)
     for (Index i = 0; i < to_index(state.x.size()); ++i) touch(state, i);
   update_elastic_forces(elastic_, state.x, f_, 0.0);
   for (bool at_rest = false; !at_rest;) {
@@ -306,6 +307,10 @@ bool EquilibriumSolver::solve(LoadState& state, double approach) {
     const Eigen::VectorXd unbalanced = constraints(state).project(load(state));
     if (!unbalanced.allFinite()) return false;
     at_rest = !changed && unbalanced.norm() <= force_tolerance * force(state);
+    if (holds_ && at_rest) {  // held by as much as it takes; now by friction
+      holds_ = at_rest = false;
+      update_contacts(state);
+    }
   }
   return force(state) > 0.0;
 }

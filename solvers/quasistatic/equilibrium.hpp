@@ -109,6 +109,7 @@ class EquilibriumSolver {
   std::vector<double> volume_;   // by node [m3]
   double mean_stiffness_ = 0.0;  // of the diagonal [N/m]
   double spring_ = 0.0;          // over that
+  bool holds_ = false;  // nodes do not slide yet: a body just touched must find its contacts before it slips away
   int iterations_ = 0;
 };
 

@@ -150,15 +150,16 @@ class LoadPath {
     return std::clamp(wanted * (1.0 + 0.4 * options_.onset_tolerance), smallest_growth, options_.growth);
   }
 
-  // The secant, now to one side of it and now to the other, so that both ends of the bracket close in; every third time
-  // the middle.
+  // Beside the secant, on the side of the farther end of the bracket, so that both close in; should that not do, the
+  // middle.
   double next_guess(int i) const {
     const double width = high_.approach - low_.approach;
-    if (i % 3 == 2) return low_.approach + 0.5 * width;
+    if (i >= 4 && i % 2 == 0) return low_.approach + 0.5 * width;
     const double rise = high_step_.utilisation - lower().utilisation;
     const double secant = low_.approach + (1.0 - lower().utilisation) / rise * width;
-    const double aside = (i % 3 == 0 ? 0.45 : -0.45) * options_.onset_tolerance * high_.approach;
-    return std::clamp(secant + aside, low_.approach + 1e-4 * width, high_.approach - 1e-4 * width);
+    const double aside = 0.45 * options_.onset_tolerance * high_.approach;
+    const double guess = high_.approach - secant > secant - low_.approach ? secant + aside : secant - aside;
+    return std::clamp(guess, low_.approach + 1e-4 * width, high_.approach - 1e-4 * width);
   }
 
   LoadedBody body_;
