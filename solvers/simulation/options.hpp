@@ -16,6 +16,21 @@ struct FractureOptions {
   std::uint64_t weibull_seed = 1;
 };
 
+/// When fragments are carried as rigid bodies, and when they become deformable again. Shares of energy are of the
+/// strength energy sigma^2/(2E) per volume of the fragment, sigma the strength of its weakest facet that may still
+/// break; a fragment without one is asked neither for them nor for quiet, and never wakes.
+struct RigidFragmentOptions {
+  bool enabled = false;
+  double quiet_crossings = 5.0;    ///< without insertion or noticeable damage, in times that a wave takes to cross it
+  int quiet_steps = 192;           ///< likewise, in steps: the longer of both
+  double noticeable_damage = 0.1;  ///< growth of a facet's mean damage that ends the quiet [-]
+  double strain_share = 0.5;       ///< largest strain energy of a fragment that freezes [-]
+  double vibration_share = 0.5;    ///< largest kinetic energy beside its rigid motion [-]
+  double loss_share = 0.01;      ///< all vibrations that freezing may take, over the reference energy of the ledger [-]
+  double approach_share = 0.25;  ///< of the critical impact speed: a faster approach wakes a body [-]
+  double load_share = 0.3;       ///< of the weakest facet's strength: a larger 0.9 F/d^2 wakes a body [-]
+};
+
 /// Everything a simulation is made from, beside the mesh; SI.
 struct SimulationOptions {
   double young_modulus = 0.0;
@@ -33,6 +48,7 @@ struct SimulationOptions {
   int ledger_interval = 24;      ///< steps between two energy balances
   int impulse_sweeps = 2;        ///< Gauss-Seidel sweeps of the vertex impulses
   int contact_sweeps = 4;        ///< Gauss-Seidel sweeps of the general contact
+  RigidFragmentOptions rigid_fragments{};
 };
 
 }  // namespace knap

@@ -48,6 +48,13 @@ struct RunTotals {
   double smallest_volume_ratio = 1.0;  ///< J of a tet at any energy balance [-], <= 0 = one was inverted
 };
 
+/// What freezing remembers; empty unless fragments may become rigid.
+struct FreezingState {
+  std::vector<std::int64_t> last_change;  ///< by tet: step of the last insertion, damage or waking around it
+  std::vector<double> noted_damage;       ///< by facet: mean over its corners when a change was last noticed, -1 = none
+  double vibration = 0.0;                 ///< energy that freezing has taken so far [J]
+};
+
 /// A run: owns everything by value, has no methods.
 struct Simulation {
   SimulationOptions options;
@@ -58,6 +65,7 @@ struct Simulation {
   CrackState cracks;
   ContactState contact;
   RigidBodies rigid;
+  FreezingState freezing;
   std::vector<Tool> tools;            ///< in the order of options.tools
   std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending
   EnergyLedger ledger;

@@ -9,6 +9,8 @@
 #include "contact/broad_phase.hpp"
 #include "contact/contact_pairs.hpp"
 #include "fem/stable_time_step.hpp"
+#include "simulation/freezing.hpp"
+#include "time/rigid_motion.hpp"
 
 namespace knap {
 namespace {
@@ -81,12 +83,41 @@ void update_bulk(Simulation& s) {
 void kick_nodes(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Motion);
   kick(s.nodes, s.clock.dt);
+  kick(s.rigid, Vec3::Zero(), s.clock.dt);
 }
 
 void drift_nodes(Simulation& s) {
-  const PhaseTimer timer(s.phase_times, Phase::Motion);
-  drift(s.nodes, s.clock.dt);
-  move_tools(s.tools);
+  {
+    const PhaseTimer timer(s.phase_times, Phase::Motion);
+    drift(s.nodes, s.clock.dt);
+    move_tools(s.tools);
+  }
+  if (s.rigid.bodies.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  drift(s.rigid, s.clock.dt);
+  place_nodes(s.rigid, s.nodes);
+}
+
+// Before their contacts are solved, so that these act on what can deform.
+void wake_bodies(Simulation& s) {
+  if (s.rigid.bodies.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  if (wake_loaded_bodies(s)) refresh_contacts(s.contact, s.topology, s.nodes.x, s.rigid);
+  clear_contact_reports(s.rigid);
+}
+
+// The impulses of the step are known.
+void settle_bodies(Simulation& s) {
+  if (s.rigid.bodies.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  update_node_velocities(s.rigid, s.nodes);
+  average_loads(s);
+}
+
+void freeze_fragments(Simulation& s) {
+  if (!s.options.rigid_fragments.enabled || !looks_for_fragments(s) || s.contact.fragments < 2) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  freeze_quiet_fragments(s);
 }
 
 void update_faces(Simulation& s) {
@@ -181,12 +212,12 @@ StepStatus check_energies(Simulation& s) {
 
 }  // namespace
 
-void balance_energies(Simulation& s) {
+void update_ledger(Simulation& s) {
   EnergyLedger& ledger = s.ledger;
   ledger[EnergyTerm::Kinetic] = kinetic_energy(s.nodes);
   const BulkState bulk = bulk_state(s.elastic, s.nodes.x);
   s.totals.smallest_volume_ratio = std::min(s.totals.smallest_volume_ratio, bulk.smallest_volume_ratio);
-  ledger[EnergyTerm::Strain] = bulk.strain_energy - half_step_work(s.nodes, s.clock.dt);
+  ledger[EnergyTerm::Strain] = bulk.strain_energy - half_step_work(s.nodes, s.clock.dt) + frozen_strain_energy(s.rigid);
   if (s.options.fracture) {
     const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
     ledger[EnergyTerm::CohesiveStored] = cracks.stored;
@@ -197,7 +228,13 @@ void balance_energies(Simulation& s) {
   ledger[EnergyTerm::ContactDissipated] = s.contact.dissipated;
   balance_tools(s);
   ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
+  ledger[EnergyTerm::RigidVibration] = s.freezing.vibration;
   ledger[EnergyTerm::MassScaling] = 0.0 - s.totals.mass_scaling_energy;
+}
+
+void balance_energies(Simulation& s) {
+  update_ledger(s);
+  EnergyLedger& ledger = s.ledger;
   const double error = ledger.closure_error();
   ledger.max_closure_error = std::max(ledger.max_closure_error, error);
   if (error <= energy_warning) s.last_good_ledger = ledger;
@@ -208,13 +245,16 @@ StepStatus step(Simulation& s) {
   insert_new_cracks(s);
   update_faces(s);
   detect_contacts(s);
+  wake_bodies(s);
   update_bulk(s);
   kick_nodes(s);
   apply_crack_impulses(s);
   apply_fragment_contacts(s);
   apply_tool_impulses(s);
+  settle_bodies(s);
   book_losses(s);
   const StepStatus status = check_energies(s);
+  freeze_fragments(s);
   drift_nodes(s);
   ++s.clock.step;
   return status;

@@ -13,7 +13,10 @@ inline constexpr double energy_warning = 0.01;
 /// One step of the clock: forces and impulses at the positions of the whole step, then new velocities and positions.
 StepStatus step(Simulation& s);
 
-/// Brings the ledger up to date; the velocities must be those of the half step after nodes.x, with nodes.f of nodes.x.
+/// Brings the terms of the ledger up to date; the velocities must be those of the half step after nodes.x, with nodes.f
+/// of nodes.x.
+void update_ledger(Simulation& s);
+/// Likewise, and notes how well it closes.
 void balance_energies(Simulation& s);
 
 }  // namespace knap

@@ -16,6 +16,7 @@ enum class EnergyTerm {
   ToolFriction,        ///< sliding on walls and tools
   ToolImpact,          ///< nodes landing on a wall (a discretisation loss)
   Viscous,             ///< loss of the viscoelastic branch
+  RigidVibration,      ///< vibration lost by fragments that became rigid bodies
   MassScaling,         ///< kinetic energy of mass added at splits, counted negative
   ToolWork,            ///< done by moving tools on the particle, counted negative
   Count
