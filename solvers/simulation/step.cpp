@@ -180,11 +180,13 @@ void apply_tool_impulses(Simulation& s) {
   s.nodes_on_tools.clear();
   if (s.tools.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::Tools);
-  s.nodes_on_tools = apply_tools(s.tools, s.nodes,
-                                 {.dt = s.clock.dt,
-                                  .step = s.clock.step,
-                                  .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
-                                  .body_of_node = s.rigid.body_of_node});
+  const ToolStep in_step{.dt = s.clock.dt,
+                         .step = s.clock.step,
+                         .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
+                         .body_of_node = s.rigid.body_of_node};
+  if (looks_for_fragments(s) || s.tool_edges.tets.empty()) watch_free_faces(s.tool_edges, s.topology);
+  auto touches = find_edge_touches(s.tool_edges, s.tools, s.topology, s.nodes, in_step);
+  s.nodes_on_tools = apply_tools(s.tools, s.nodes, in_step, touches);
 }
 
 void book_losses(Simulation& s) {
