@@ -92,7 +92,7 @@ void kick_nodes(Simulation& s) {
 void drift_nodes(Simulation& s) {
   {
     const PhaseTimer timer(s.phase_times, Phase::Motion);
-    drift(s.nodes, s.clock.dt);
+    drift(s.nodes, s.clock.dt, s.rigid.body_of_node);
     move_tools(s.tools);
   }
   if (s.rigid.bodies.empty()) return;
@@ -142,7 +142,7 @@ bool look_for_new_fragments(Simulation& s) {
   s.contact.fragments = num_fragments(labels);
   s.contact.fragment_of_tet = std::move(labels);
   const Index handed_over = hand_over_faces(s.cracks, s.topology, s.nodes.x, s.contact.fragment_of_tet,
-                                            {.facet_size = s.reference.facet_size});
+                                            {.lets_go = s.freezing.lets_go, .facet_size = s.reference.facet_size});
   if (!changed && handed_over == 0) return false;
   rebuild_contact_candidates(s);
   return true;
