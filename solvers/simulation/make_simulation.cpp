@@ -105,8 +105,7 @@ double energy_to_compare_with(const Simulation& s) {
   if (incident > 0.0) return incident;
   double stiffness = 0.0;
   for (std::size_t tet = 0; tet < s.reference.tet_volume.size(); ++tet)
-    stiffness +=
-        s.options.particles[at(s.reference.particle_of_tet[tet])].young_modulus * s.reference.tet_volume[tet];
+    stiffness += s.options.particles[at(s.reference.particle_of_tet[tet])].young_modulus * s.reference.tet_volume[tet];
   return 0.5 * stiffness * strain_at_rest * strain_at_rest;
 }
 
