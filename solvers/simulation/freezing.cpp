@@ -87,6 +87,11 @@ bool must_wake(const Simulation& s, Index b) {
 void freeze_quiet_fragments(Simulation& s) {
   note_changes(s);
   auto quiet = quiet_fragments(s);
+  s.freezing.lets_go.assign(at(s.topology.num_tets()), 0);
+  for (const QuietFragment& fragment : quiet)
+    if (!fragment.is_loose)
+      for (const Index tet : fragment.tets) s.freezing.lets_go[at(tet)] = 1;
+  std::erase_if(quiet, [](const QuietFragment& fragment) { return !fragment.is_loose; });
   if (quiet.empty()) return;
   update_ledger(s);
   const double before = s.ledger.total();

@@ -20,6 +20,8 @@ namespace {
 
 // Candidate pairs are kept for fragments that move by this much of the mean edge towards each other.
 constexpr double skin_over_edge = 0.3;
+// Of the points on tools' edges over the mean edge: one at least in every face that an edge crosses.
+constexpr double spacing_over_edge = 0.4;
 
 void measure_facets(ReferenceState& reference, const Topology& topology) {
   reference.facet_area.reserve(at(topology.num_facets()));
@@ -197,6 +199,7 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
 
   s.tools = make_tools(options.tools, s.clock.dt);
   check_tools_are_outside(s);
+  s.tool_edges = make_edge_watch(s.tools, spacing_over_edge * s.reference.mean_edge);
   s.reference.start_potential = gravity_potential(s, -0.5 * s.clock.dt);
 
   s.reference.start = momentum(s.nodes);

@@ -3,7 +3,7 @@
 #include "cohesive/insertion_criterion.hpp"
 #include "cohesive/vertex_impulses.hpp"
 #include "contact/contact_impulses.hpp"
-#include "contact/tool_contact.hpp"
+#include "contact/tool_edges.hpp"
 #include "core/energy_ledger.hpp"
 #include "core/nodal_state.hpp"
 #include "core/rigid_bodies.hpp"
@@ -66,6 +66,7 @@ struct RunTotals {
 struct FreezingState {
   std::vector<std::int64_t> last_change;  ///< by tet: step of the last insertion, damage or waking around it
   std::vector<double> noted_damage;       ///< by facet: mean over its corners when a change was last noticed, -1 = none
+  std::vector<std::uint8_t> lets_go;      ///< by tet: crack faces alone keep its fragment from freezing
   double vibration = 0.0;                 ///< energy that freezing has taken so far [J]
 };
 
@@ -81,6 +82,7 @@ struct Simulation {
   RigidBodies rigid;
   FreezingState freezing;
   std::vector<Tool> tools;            ///< in the order of options.tools
+  EdgeWatch tool_edges;               ///< for which of the particle's faces
   std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending
   EnergyLedger ledger;
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning

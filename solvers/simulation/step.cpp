@@ -92,7 +92,7 @@ void kick_nodes(Simulation& s) {
 void drift_nodes(Simulation& s) {
   {
     const PhaseTimer timer(s.phase_times, Phase::Motion);
-    drift(s.nodes, s.clock.dt);
+    drift(s.nodes, s.clock.dt, s.rigid.body_of_node);
     move_tools(s.tools);
   }
   if (s.rigid.bodies.empty()) return;
@@ -142,7 +142,7 @@ bool look_for_new_fragments(Simulation& s) {
   s.contact.fragments = num_fragments(labels);
   s.contact.fragment_of_tet = std::move(labels);
   const Index handed_over = hand_over_faces(s.cracks, s.topology, s.nodes.x, s.contact.fragment_of_tet,
-                                            {.facet_size = s.reference.facet_size});
+                                            {.lets_go = s.freezing.lets_go, .facet_size = s.reference.facet_size});
   if (!changed && handed_over == 0) return false;
   rebuild_contact_candidates(s);
   return true;
@@ -180,11 +180,13 @@ void apply_tool_impulses(Simulation& s) {
   s.nodes_on_tools.clear();
   if (s.tools.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::Tools);
-  s.nodes_on_tools = apply_tools(s.tools, s.nodes,
-                                 {.dt = s.clock.dt,
-                                  .step = s.clock.step,
-                                  .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
-                                  .body_of_node = s.rigid.body_of_node});
+  const ToolStep in_step{.dt = s.clock.dt,
+                         .step = s.clock.step,
+                         .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
+                         .body_of_node = s.rigid.body_of_node};
+  if (looks_for_fragments(s) || s.tool_edges.tets.empty()) watch_free_faces(s.tool_edges, s.topology);
+  auto touches = find_edge_touches(s.tool_edges, s.tools, s.topology, s.nodes, in_step);
+  s.nodes_on_tools = apply_tools(s.tools, s.nodes, in_step, touches);
 }
 
 void book_losses(Simulation& s) {
