@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "contact/guided_tool.hpp"
 #include "contact/tool_landing.hpp"
 #include "core/parallel.hpp"
 
@@ -116,15 +117,33 @@ void book(std::span<Tool> tools, const NodalState& nodes, const ToolLandings& la
     if (touched[k]) book_action(tools[k], total[k], step.dt, step.step);
 }
 
+// The final speeds of guided tools: exactly what the particle's impulses make of the free ones.
+void push_guided_tools_back(std::span<Tool> tools, std::span<const double> free_speed, const ToolLandings& landings,
+                            double dt) {
+  for (std::size_t k = 0; k < tools.size(); ++k) {
+    if (!tools[k].is_guided()) continue;
+    double along = 0.0;
+    for (const auto& block : landings)
+      for (const NodeLanding& landing : block)
+        if (landing.tool == to_index(k)) along += tools[k].guide.dot(landing.push + landing.drag);
+    set_guided_speed(tools[k], free_speed[k] - along / tools[k].mass, dt);
+  }
+}
+
 }  // namespace
 
 std::vector<Index> apply_tools(std::span<Tool> tools, NodalState& nodes, const ToolStep& step) {
+  std::vector<double> free_speed;
+  for (const Tool& tool : tools) free_speed.push_back(tool.guide.dot(tool.state.velocity));
   ToolLandings landings = find_landings(tools, nodes, step);
+  for (std::size_t k = 0; k < tools.size(); ++k)
+    if (tools[k].is_guided()) meet_guided_tool(tools[k], to_index(k), nodes, step, landings);
   std::vector<Index> touched;
   for (auto& block : landings) {
     land(tools, nodes, block, step);
     for_each_node(block, [&](const Group& group) { touched.push_back(group.front().node); });
   }
+  push_guided_tools_back(tools, free_speed, landings, step.dt);
   book(tools, nodes, landings, step);
   return touched;
 }

@@ -10,7 +10,7 @@ std::string_view name(EnergyTerm term) {
       "kinetic",        "strain",         "cohesive_stored",    "cohesive_dissipated",
       "closure_impact", "crack_friction", "contact_dissipated", "tool_friction",
       "tool_impact",    "viscous",        "rigid_vibration",    "mass_scaling",
-      "tool_work"};
+      "tool_work",      "tool_kinetic",   "gravity"};
   return names[static_cast<std::size_t>(term)];
 }
 
