@@ -29,9 +29,13 @@ Mat3 inertia_about(const CrackFace& face, const NodalState& nodes, const Vec3& c
   return inertia;
 }
 
+}  // namespace
+
 Vec3 pending_couple(const CrackFace& face) {
   return xyz(face.couple[0]) + xyz(face.couple[1]) + xyz(face.couple[2]) + face.carried_couple;
 }
+
+namespace {
 
 // Returns whether there is anything to give back.
 bool update_rotation(CrackFace& face, const NodalState& nodes) {

@@ -23,6 +23,8 @@ inline constexpr Index all_turns = -1;
 /// rotation that gives back the angular momentum they have taken (I w = -C over the six nodes).
 void update_crack_faces(CrackState& cracks, Topology& topology, const NodalState& nodes, Index turn);
 
+/// Angular momentum that a face has still to give back [kg m2/s].
+Vec3 pending_couple(const CrackFace& face);
 /// Angular momentum still to be given back [kg m2/s], positions as after the step.
 Vec3 pending_angular_momentum(const CrackState& cracks);
 

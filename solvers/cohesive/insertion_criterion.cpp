@@ -27,11 +27,12 @@ double effective_traction(const CohesiveLaw& law, const Vec3& t, const Vec3& nor
 
 std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::span<const Vec4> x,
                                                const TetStresses& stresses, std::span<const double> strength,
-                                               const CohesiveLaw& law) {
+                                               const LawsOfTets& laws) {
   const Index blocks = num_blocks(topology.num_facets(), facets_per_block);
   std::vector<std::vector<OverloadedFacet>> found(at(blocks));
   // The effective traction is at most |t| max(1, 1/beta), and |t| at most the mean of the two stresses' bounds.
-  const double bound_factor = 0.5 * std::max(1.0, 1.0 / law.beta);
+  double bound_factor = 0.5;
+  for (const CohesiveLaw& law : laws.laws) bound_factor = std::max(bound_factor, 0.5 / law.beta);
   const auto may_fail = [&](Index facet) {
     const auto& [minus, plus] = topology.facet_tets[at(facet)];
     const double bound = stresses.bound[at(minus)] + stresses.bound[at(plus)];
@@ -52,7 +53,7 @@ std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::sp
       const auto& [minus, plus] = topology.facet_tets[at(facet)];
       const Vec3 n = facet_normal(topology, x, facet);
       const Vec3 t = facet_traction(stresses.stress[at(minus)], stresses.stress[at(plus)], n);
-      const double effective = effective_traction(law, t, n);
+      const double effective = effective_traction(laws.of(minus), t, n);
       if (effective >= strength[at(facet)]) found[at(block)].push_back({facet, effective, t});
     }
   });

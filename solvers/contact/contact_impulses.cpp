@@ -61,8 +61,16 @@ void add_impulse(const Contact& c, const Vec3& impulse, NodalState& nodes, Rigid
   add_impulse(c.sides[1], c.place, impulse, nodes, rigid);
 }
 
+double friction(const Contact& c, const ContactOptions& options) {
+  const PairFriction& pairs = options.pairs;
+  if (pairs.table.empty()) return options.friction;
+  const Index first = pairs.particle_of_tet[at(c.tets[0])], second = pairs.particle_of_tet[at(c.tets[1])];
+  return pairs.table[at(first * pairs.num_particles + second)];
+}
+
 /// What the sweeps need of a contact.
 struct Row {
+  double friction = 0.0;         ///< [-]
   double normal_mass = 0.0;      ///< [kg]
   double tangential_mass = 0.0;  ///< for the direction that moves most easily: the sweeps converge from below [kg]
   double target = 0.0;           ///< normal velocity to reach [m/s]
@@ -74,6 +82,7 @@ bool is_between_bodies(const Contact& c) { return c.sides[0].body != none && c.s
 Row make_row(const Contact& c, const NodalState& nodes, RigidBodies& rigid, const ContactOptions& options) {
   const Mat3 both = mobility(c.sides[0], c.place, nodes, rigid) + mobility(c.sides[1], c.place, nodes, rigid);
   Row row;
+  row.friction = friction(c, options);
   const double along = c.normal.dot(both * c.normal);
   row.normal_mass = 1.0 / along;
   if (is_rigid(c)) {
@@ -100,12 +109,12 @@ Vec3 in_cone(const Vec3& trial, const Vec3& normal, double friction) {
 }
 
 // Solves one contact; returns the change of its velocity.
-double solve(Contact& c, const Row& row, NodalState& nodes, RigidBodies& rigid, double friction) {
+double solve(Contact& c, const Row& row, NodalState& nodes, RigidBodies& rigid) {
   const Vec3 velocity = relative_velocity(c, nodes, rigid);
   const double along = velocity.dot(c.normal);
   const Vec3 trial = c.impulse - row.normal_mass * (along - row.target) * c.normal -
                      row.tangential_mass * (velocity - along * c.normal);
-  const Vec3 impulse = in_cone(trial, c.normal, friction);
+  const Vec3 impulse = in_cone(trial, c.normal, row.friction);
   const Vec3 change = impulse - c.impulse;
   add_impulse(c, change, nodes, rigid);
   c.impulse = impulse;
@@ -126,7 +135,7 @@ void settle_bodies(ContactState& contact, std::span<const Row> rows, NodalState&
   for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
     double largest = 0.0;
     for (const std::size_t i : with_body)
-      largest = std::max(largest, solve(contact.contacts[i], rows[i], nodes, rigid, options.friction));
+      largest = std::max(largest, solve(contact.contacts[i], rows[i], nodes, rigid));
     if (largest <= settled * fastest) return;
   }
 }
@@ -138,12 +147,13 @@ void apply_contact_impulses(ContactState& contact, NodalState& nodes, RigidBodie
   std::vector<Row> rows;
   rows.reserve(contact.contacts.size());
   for (const Contact& c : contact.contacts) rows.push_back(make_row(c, nodes, rigid, options));
-  for (Contact& c : contact.contacts) {
-    c.impulse = in_cone(c.impulse, c.normal, options.friction);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    Contact& c = contact.contacts[i];
+    c.impulse = in_cone(c.impulse, c.normal, rows[i].friction);
     add_impulse(c, c.impulse, nodes, rigid);
   }
   for (int sweep = 0; sweep < options.sweeps; ++sweep)
-    for (std::size_t i = 0; i < rows.size(); ++i) solve(contact.contacts[i], rows[i], nodes, rigid, options.friction);
+    for (std::size_t i = 0; i < rows.size(); ++i) solve(contact.contacts[i], rows[i], nodes, rigid);
   settle_bodies(contact, rows, nodes, rigid, options);
   for (const Contact& c : contact.contacts) note_push(c, rigid);
 }

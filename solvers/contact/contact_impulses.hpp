@@ -5,8 +5,16 @@
 
 namespace knap {
 
+/// Friction by pair of particles.
+struct PairFriction {
+  std::span<const double> table;  ///< [-], row by row; empty = no matter which
+  std::span<const Index> particle_of_tet;
+  Index num_particles = 1;
+};
+
 struct ContactOptions {
-  double friction = 0.0;     ///< Coulomb [-]
+  double friction = 0.0;  ///< Coulomb, without a table [-]
+  PairFriction pairs{};
   double restitution = 0.0;  ///< between rigid bodies: speed of parting over speed of approach (Newton) [-]
   double slowest = 0.0;      ///< approach below this speed does not rebound [m/s]
   int sweeps = 4;            ///< Gauss-Seidel sweeps over all contacts

@@ -43,6 +43,17 @@ void set_active_tets(ElasticForce& elastic, const Topology& topology, std::span<
   elastic.interface_forces.resize(at(elastic.blocks.num_slots));
 }
 
+void relax_sleeping(ElasticForce& elastic, const Topology& topology, std::span<const Index> tets,
+                    std::span<const Vec4> x) {
+  if (elastic.branch.groups.empty()) return;
+  for (const Index t : tets) {
+    const TetCorners& nodes = topology.tet_nodes[at(t)];
+    const Vec3 origin = xyz(x[at(nodes[0])]);
+    const Vec3 a = xyz(x[at(nodes[1])]) - origin, b = xyz(x[at(nodes[2])]) - origin, c = xyz(x[at(nodes[3])]) - origin;
+    elastic.branch.remembered[at(t)] = {a.dot(a), b.dot(b), c.dot(c), b.dot(c), c.dot(a), a.dot(b)};
+  }
+}
+
 std::vector<Index> sleeping_tets(const ElasticForce& elastic) {
   std::vector<std::uint8_t> is_active(elastic.blocks.block_of_tet.size(), 0);
   for (const ElementBlock& block : elastic.blocks.blocks)

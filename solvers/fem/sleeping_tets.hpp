@@ -11,6 +11,10 @@ namespace knap {
 void set_active_tets(ElasticForce& elastic, const Topology& topology, std::span<const Vec3> reference_positions,
                      std::span<const Index> active);
 
+/// The branch of the given sleeping tets relaxes fully at positions x [m]: they wake without branch stress.
+void relax_sleeping(ElasticForce& elastic, const Topology& topology, std::span<const Index> tets,
+                    std::span<const Vec4> x);
+
 /// The tets that sleep, ascending.
 std::vector<Index> sleeping_tets(const ElasticForce& elastic);
 

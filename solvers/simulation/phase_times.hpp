@@ -14,6 +14,7 @@ enum class Phase {
   VertexImpulses,
   ContactImpulses,
   Tools,
+  RigidBodies,
   Booking,
   Ledger,
   Motion,
@@ -24,8 +25,9 @@ inline constexpr std::size_t num_phases = static_cast<std::size_t>(Phase::Count)
 
 inline std::string_view name(Phase phase) {
   constexpr std::array<std::string_view, num_phases> names{
-      "insertion", "bulk_forces", "crack_faces", "contact_detection", "vertex_impulses", "contact_impulses", "tools",
-      "booking",   "ledger",      "motion"};
+      "insertion",       "bulk_forces",      "crack_faces", "contact_detection",
+      "vertex_impulses", "contact_impulses", "tools",       "rigid_bodies",
+      "booking",         "ledger",           "motion"};
   return names[static_cast<std::size_t>(phase)];
 }
 

@@ -21,21 +21,31 @@ struct Clock {
   double time() const { return dt * static_cast<double>(step); }
 };
 
-/// What never changes once the mesh is known.
+/// What never changes once the meshes are known. Vertices, tets and facets of a particle are consecutive.
 struct ReferenceState {
+  std::vector<Index> particle_of_tet;
+  std::vector<CohesiveLaw> laws;         ///< by particle
+  std::vector<double> pair_friction;     ///< [-], by pair of particles, row by row; in a particle: of its fragments
   std::vector<Vec3> vertices;            ///< [m]
   std::vector<double> tet_volume;        ///< [m3]
   std::vector<double> corner_mass;       ///< per tet, a quarter of its mass [kg]
   std::vector<double> corner_stiffness;  ///< per corner, of the time-step bound [N/m]
   std::vector<double> facet_area;        ///< [m2]
   std::vector<double> facet_size;        ///< h = 1.5 (V_minus + V_plus)/A [m]
-  std::vector<double> facet_strength;    ///< [Pa]
+  std::vector<double> facet_strength;    ///< [Pa], infinite in unbreakable particles; empty if all are
   std::vector<double> fracture_energy;   ///< per facet [J/m2]
   double mean_edge = 0.0;                ///< [m]
   double critical_step = 0.0;            ///< bound of the unbroken mesh [s]
   Momentum start;                        ///< momenta at the start
-  double incident_energy = 0.0;          ///< kinetic at the start [J]
+  double incident_energy = 0.0;          ///< kinetic at the start [J]; of several particles without a tool: about their
+                                         ///< common mass centre
   double start_potential = 0.0;          ///< of gravity [J]
+};
+
+/// Of the tool whose falling force may end the run, see run.hpp.
+struct ForceWatch {
+  Vec3 impulse = Vec3::Zero();  ///< at the end of the last window [N s]
+  double largest = 0.0;         ///< mean force of a window [N]
 };
 
 /// Sums over the run that no state variable holds.
@@ -47,8 +57,16 @@ struct RunTotals {
   GravityImpulse gravity;               ///< on the particle
   std::int64_t last_contact_step = -1;  ///< last step with a general contact pushing
   std::int64_t inserted_facets = 0;
+  ForceWatch force_watch{};
   double noted_damage = 0.0;  ///< energy that the cracks had spent when damage was last noticed, see run.cpp [J]
   double smallest_volume_ratio = 1.0;  ///< J of a tet at any energy balance [-], <= 0 = one was inverted
+};
+
+/// What freezing remembers; empty unless fragments may become rigid.
+struct FreezingState {
+  std::vector<std::int64_t> last_change;  ///< by tet: step of the last insertion, damage or waking around it
+  std::vector<double> noted_damage;       ///< by facet: mean over its corners when a change was last noticed, -1 = none
+  double vibration = 0.0;                 ///< energy that freezing has taken so far [J]
 };
 
 /// A run: owns everything by value, has no methods.
@@ -61,6 +79,7 @@ struct Simulation {
   CrackState cracks;
   ContactState contact;
   RigidBodies rigid;
+  FreezingState freezing;
   std::vector<Tool> tools;            ///< in the order of options.tools
   EdgeWatch tool_edges;               ///< for which of the particle's faces
   std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending

@@ -9,6 +9,8 @@
 #include "contact/broad_phase.hpp"
 #include "contact/contact_pairs.hpp"
 #include "fem/stable_time_step.hpp"
+#include "simulation/freezing.hpp"
+#include "time/rigid_motion.hpp"
 
 namespace knap {
 namespace {
@@ -19,7 +21,7 @@ constexpr double largest_step_safety = 0.9;
 constexpr double landing_tolerance_over_edge = 1e-6;
 
 VertexImpulseOptions impulse_options(const Simulation& s) {
-  return {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps};
+  return {s.reference.laws, s.clock.dt, s.options.impulse_sweeps};
 }
 
 bool looks_for_fragments(const Simulation& s) { return s.clock.step % s.options.label_interval == 0; }
@@ -56,11 +58,12 @@ void scale_masses(Simulation& s, std::span<const Index> split_vertices) {
 }
 
 void insert_new_cracks(Simulation& s) {
-  if (!s.options.fracture || s.clock.step % s.options.insertion_interval != 0) return;
+  if (!can_break(s.options) || s.clock.step % s.options.insertion_interval != 0) return;
   const PhaseTimer timer(s.phase_times, Phase::Insertion);
   update_stress(s.elastic, s.nodes.x);
-  const auto overloaded = overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound},
-                                            s.reference.facet_strength, s.options.fracture->law);
+  const auto overloaded =
+      overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound}, s.reference.facet_strength,
+                        {s.reference.laws, s.reference.particle_of_tet});
   if (overloaded.empty()) return;
   const auto change = insert_cracks(s.cracks, s.topology, s.nodes, overloaded,
                                     {.dt = s.clock.dt,
@@ -83,12 +86,41 @@ void kick_nodes(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Motion);
   kick(s.nodes, s.clock.dt);
   if (!s.options.gravity.isZero(0.0)) s.totals.gravity += add_gravity(s.nodes, s.options.gravity, s.clock.dt);
+  kick(s.rigid, s.options.gravity, s.clock.dt);
 }
 
 void drift_nodes(Simulation& s) {
-  const PhaseTimer timer(s.phase_times, Phase::Motion);
-  drift(s.nodes, s.clock.dt);
-  move_tools(s.tools);
+  {
+    const PhaseTimer timer(s.phase_times, Phase::Motion);
+    drift(s.nodes, s.clock.dt);
+    move_tools(s.tools);
+  }
+  if (s.rigid.bodies.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  drift(s.rigid, s.clock.dt);
+  place_nodes(s.rigid, s.nodes);
+}
+
+// Before their contacts are solved, so that these act on what can deform.
+void wake_bodies(Simulation& s) {
+  if (s.rigid.bodies.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  if (wake_loaded_bodies(s)) refresh_contacts(s.contact, s.topology, s.nodes.x, s.rigid);
+  clear_contact_reports(s.rigid);
+}
+
+// The impulses of the step are known.
+void settle_bodies(Simulation& s) {
+  if (s.rigid.bodies.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  update_node_velocities(s.rigid, s.nodes);
+  average_loads(s);
+}
+
+void freeze_fragments(Simulation& s) {
+  if (!s.options.rigid_fragments.enabled || !looks_for_fragments(s) || s.contact.fragments < 2) return;
+  const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
+  freeze_quiet_fragments(s);
 }
 
 void update_faces(Simulation& s) {
@@ -117,7 +149,7 @@ bool look_for_new_fragments(Simulation& s) {
 }
 
 void detect_contacts(Simulation& s) {
-  if (!s.options.fracture || s.totals.inserted_facets == 0) return;
+  if (s.options.particles.size() == 1 && s.totals.inserted_facets == 0) return;  // in one piece
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
   const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
@@ -135,8 +167,11 @@ void apply_crack_impulses(Simulation& s) {
 void apply_fragment_contacts(Simulation& s) {
   if (s.contact.contacts.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactImpulses);
-  apply_contact_impulses(s.contact, s.nodes, s.rigid,
-                         {.friction = s.options.fracture->law.sliding_friction, .sweeps = s.options.contact_sweeps});
+  apply_contact_impulses(
+      s.contact, s.nodes, s.rigid,
+      {.pairs = {s.reference.pair_friction, s.reference.particle_of_tet, to_index(s.options.particles.size())},
+       .restitution = s.options.restitution,
+       .sweeps = s.options.contact_sweeps});
   for (const Contact& contact : s.contact.contacts)
     if (contact.impulse.squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
 }
@@ -199,13 +234,13 @@ double gravity_potential(const Simulation& s, double ahead) {
   return potential;
 }
 
-void balance_energies(Simulation& s) {
+void update_ledger(Simulation& s) {
   EnergyLedger& ledger = s.ledger;
   ledger[EnergyTerm::Kinetic] = kinetic_energy(s.nodes);
   const BulkState bulk = bulk_state(s.elastic, s.nodes.x);
   s.totals.smallest_volume_ratio = std::min(s.totals.smallest_volume_ratio, bulk.smallest_volume_ratio);
-  ledger[EnergyTerm::Strain] = bulk.strain_energy - half_step_work(s.nodes, s.clock.dt);
-  if (s.options.fracture) {
+  ledger[EnergyTerm::Strain] = bulk.strain_energy - half_step_work(s.nodes, s.clock.dt) + frozen_strain_energy(s.rigid);
+  if (can_break(s.options)) {
     const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
     ledger[EnergyTerm::CohesiveStored] = cracks.stored;
     ledger[EnergyTerm::CohesiveDissipated] = cracks.losses.cohesive;
@@ -215,9 +250,15 @@ void balance_energies(Simulation& s) {
   ledger[EnergyTerm::ContactDissipated] = s.contact.dissipated;
   balance_tools(s);
   ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
+  ledger[EnergyTerm::RigidVibration] = s.freezing.vibration;
   ledger[EnergyTerm::MassScaling] = 0.0 - s.totals.mass_scaling_energy;
   const double supplied = std::max(0.0, -ledger[EnergyTerm::ToolWork]) + std::max(0.0, -ledger[EnergyTerm::Gravity]);
   ledger.reference = std::max(ledger.reference, s.reference.incident_energy + supplied);
+}
+
+void balance_energies(Simulation& s) {
+  update_ledger(s);
+  EnergyLedger& ledger = s.ledger;
   const double error = ledger.closure_error();
   ledger.max_closure_error = std::max(ledger.max_closure_error, error);
   if (error <= energy_warning) s.last_good_ledger = ledger;
@@ -228,13 +269,16 @@ StepStatus step(Simulation& s) {
   insert_new_cracks(s);
   update_faces(s);
   detect_contacts(s);
+  wake_bodies(s);
   update_bulk(s);
   kick_nodes(s);
   apply_crack_impulses(s);
   apply_fragment_contacts(s);
   apply_tool_impulses(s);
+  settle_bodies(s);
   book_losses(s);
   const StepStatus status = check_energies(s);
+  freeze_fragments(s);
   drift_nodes(s);
   ++s.clock.step;
   return status;

@@ -16,7 +16,10 @@ StepStatus step(Simulation& s);
 /// Of gravity on particle and guided tools, `ahead` [s] after the positions [J].
 double gravity_potential(const Simulation& s, double ahead);
 
-/// Brings the ledger up to date; the velocities must be those of the half step after nodes.x, with nodes.f of nodes.x.
+/// Brings the terms of the ledger up to date; the velocities must be those of the half step after nodes.x, with nodes.f
+/// of nodes.x.
+void update_ledger(Simulation& s);
+/// Likewise, and notes how well it closes.
 void balance_energies(Simulation& s);
 
 }  // namespace knap

@@ -47,11 +47,6 @@ bool has_changed(const RigidBody& body) {
 
 }  // namespace
 
-void update_inertia(RigidBody& body) {
-  const Mat3 rotation = body.orientation.toRotationMatrix();
-  body.inverse_inertia_world = rotation * body.inverse_inertia * rotation.transpose();
-}
-
 void rotate_freely(RigidBody& body, double dt) {
   if (body.angular_momentum.isZero(0.0)) return;
   const Vec3 w = midpoint_spin(body, body.orientation.conjugate() * body.angular_momentum, dt);

@@ -6,13 +6,9 @@
 // inertia beforehand, as Hairer & Vilmart (2006, J. Phys. A 39, "preprocessed discrete Moser-Veselov") do, which makes
 // the step of fourth order at no cost. The alternative, the exact solution by elliptic functions, is dearer than all
 // else that a body needs.
-#include "core/nodal_state.hpp"
 #include "core/rigid_bodies.hpp"
 
 namespace knap {
-
-/// Derives inverse_inertia_world from orientation and inverse_inertia.
-void update_inertia(RigidBody& body);
 
 /// Turns a body by dt [s] of free rotation.
 void rotate_freely(RigidBody& body, double dt);

@@ -100,9 +100,13 @@ std::vector<Key> tool_keys() {
   for (Key& key : geometry_keys()) keys.push_back(std::move(key));
   keys.push_back(quantity("friction", Ratio, "[0, 10]", value("0.3"), field(in, &C::friction),
                           "Coefficient of friction between particle and tool."));
-  keys.push_back(word("motion", KeyType::Choice, motions, value("rest"), choice(in, &C::motion, motions),
-                      "How it moves: prescribed, or free under its own inertia, gravity and the particle's push."));
+  keys.push_back(
+      word("motion", KeyType::Choice, motions, value("rest"), choice(in, &C::motion, motions),
+           "How it moves: prescribed; or free along its velocity (from rest: along gravity), as a weight on rails."));
   for (Key& key : motion_keys()) keys.push_back(std::move(key));
+  keys.push_back(quantity("stop_at_force_drop", Ratio, "[0, 0.99]", value("0"), field(in, &C::stop_at_force_drop),
+                          "The run ends when the tool's force has fallen to this part of its largest and something has "
+                          "cracked; 0 = it does not."));
   return keys;
 }
 

@@ -3,13 +3,17 @@
 // masses, so that momenta and kinetic energy of nodes that move by v = V + w x r are the body's. The angular momentum
 // is the state and the spin follows from it: free rotation then keeps it exactly.
 #include <Eigen/Geometry>
+#include <limits>
 
 #include "core/csr.hpp"
+#include "core/nodal_state.hpp"
 
 namespace knap {
 
 /// One fragment carried as a rigid body. Velocities live at half steps, like those of nodes.
 struct RigidBody {
+  static constexpr double unbreakable = std::numeric_limits<double>::infinity();
+
   double mass = 0.0;  ///< [kg]
   Vec3 centre = Vec3::Zero();
   Eigen::Quaterniond orientation = Eigen::Quaterniond::Identity();  ///< body axes were the world's when it was made
@@ -21,8 +25,14 @@ struct RigidBody {
   Mat3 inverse_inertia = Mat3::Zero();                              ///< body axes [1/(kg m2)]
   Mat3 inverse_inertia_world = Mat3::Zero();                        ///< derived: at the current orientation [1/(kg m2)]
   double size = 0.0;                                                ///< diameter of the sphere of its volume [m]
-  double strength = 0.0;  ///< of its weakest facet [Pa]; infinite = nothing left to break
-  double load = 0.0;      ///< sum of contact forces, averaged over a crossing time [N]
+  double radius = 0.0;          ///< of the sphere about the centre that holds its nodes [m]
+  double strength = 0.0;        ///< of its weakest facet [Pa]; infinite = nothing left to break
+  double critical_speed = 0.0;  ///< at which an impact could break it [m/s]; infinite likewise
+  double crossing_time = 0.0;   ///< of a wave [s]
+  double load = 0.0;            ///< sum of contact forces, averaged over a crossing time [N]
+  double strain_energy = 0.0;   ///< stored in its frozen tets [J]
+
+  bool can_break() const { return strength < unbreakable; }
 };
 
 /// All bodies of a run and who belongs to them.
@@ -33,7 +43,7 @@ struct RigidBodies {
   Csr nodes_of_body;
   std::vector<Vec3> place;  ///< by nodes_of_body.items: of the node from the centre, body axes [m]
 
-  /// What the contact layer tells, by body, for the present step; cleared when the step begins.
+  /// What the contact layer tells, by body, for the present step, in the order of the bodies.
   std::vector<double> approach;  ///< largest approach speed of its contacts, before the solve [m/s]
   std::vector<double> push;      ///< sum of the magnitudes of its contact impulses, tools included [N s]
 
@@ -42,6 +52,19 @@ struct RigidBodies {
   Index of_tet(Index tet) const { return at(tet) < body_of_tet.size() ? body_of_tet[at(tet)] : none; }
 };
 
+/// A body of the given nodes, at their positions and with their momenta; mass, motion and inertia only.
+RigidBody make_rigid_body(std::span<const Index> nodes, const NodalState& state);
+/// Appends a body and its parts; x are the positions of all nodes [m].
+void append_body(RigidBodies& rigid, const RigidBody& body, std::span<const Index> tets, std::span<const Index> nodes,
+                 std::span<const Vec4> x);
+/// Removes the bodies marked by 1; the others keep their order, and what contacts have told is cleared.
+void remove_bodies(RigidBodies& rigid, std::span<const std::uint8_t> leaves);
+
+/// Clears what the contact layer has told, at the start of a step.
+void clear_contact_reports(RigidBodies& rigid);
+
+/// Derives inverse_inertia_world from orientation and inverse_inertia.
+void update_inertia(RigidBody& body);
 /// Angular velocity [rad/s].
 inline Vec3 spin(const RigidBody& body) { return body.inverse_inertia_world * body.angular_momentum; }
 /// Velocity of the body's matter at a point in space [m/s].

@@ -92,7 +92,9 @@ MomentumErrors momentum_errors(const Simulation& s, double radius) {
     linear -= tool.state.impulse;
     angular -= tool.state.angular_impulse;
   }
-  const double incident = start.linear.norm();
+  double incident = start.linear.norm();
+  for (const Tool& tool : s.tools)
+    if (start.linear.norm() == 0.0) incident = std::max(incident, tool.state.impulse.norm());
   return {ratio(linear.norm(), incident), ratio(angular.norm(), std::max(incident * radius, start.angular.norm()))};
 }
 

@@ -82,8 +82,8 @@ constexpr double cell = 0.1e-3;
 Simulation block_on_a_ridge(double friction, const Vec3& velocity) {
   TetMesh mesh = bar_mesh({6, 6, 3}, cell);
   for (Vec3& x : mesh.vertices) x += Vec3(-2.6 * cell, -2.9 * cell, 1e-7);
-  SimulationOptions options{.young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0};
-  options.velocity = velocity;
+  SimulationOptions options;
+  options.particles = {{.young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0, .velocity = velocity}};
   ToolOptions tool;
   tool.shape = roof(2e-3, 0.5);
   tool.friction = friction;

@@ -15,13 +15,15 @@ namespace knap {
 namespace {
 
 constexpr double g = 9.81;
+const ParticleOptions rubber{.young_modulus = 1e6, .poisson_ratio = 0.25, .density = 1000.0};
 
 /// A soft block of 20 mm on a wall inclined by `angle`, under gravity; damped, so that it comes to rest.
 Simulation block_on_incline(double angle, double friction) {
   TetMesh mesh = bar_mesh({2, 2, 2}, 0.01);
-  SimulationOptions options{.young_modulus = 1e6, .poisson_ratio = 0.25, .density = 1000.0};
-  options.viscous_ratio = 0.5;
-  options.relaxation_time = 2e-3;
+  SimulationOptions options;
+  options.particles = {rubber};
+  options.particles[0].viscous_ratio = 0.5;
+  options.particles[0].relaxation_time = 2e-3;
   options.tools = {wall(friction)};
   options.gravity = g * Vec3(std::sin(angle), 0, -std::cos(angle));
   return make_simulation(options, mesh);
@@ -55,15 +57,16 @@ TEST(Incline, ABlockSlidesWithTheAccelerationThatFrictionLeaves) {
 }
 
 TEST(Gravity, AFallingBodyTurnsPotentialIntoKineticEnergyExactly) {
-  SimulationOptions options{.young_modulus = 1e6, .poisson_ratio = 0.25, .density = 1000.0};
+  SimulationOptions options;
+  options.particles = {rubber};
   options.gravity = {0, 0, -g};
-  options.velocity = {1, 0, 2};
-  options.spin = {0, 30, 0};
+  options.particles[0].velocity = {1, 0, 2};
+  options.particles[0].spin = {0, 30, 0};
   Simulation s = make_simulation(options, bar_mesh({1, 1, 2}, 0.01));
   const Vec3 centre = momentum(s.nodes).centre();
   run_to(s, 0.2);
   const double t = s.clock.time();  // the first kick comes at time 0: the start is half a step earlier
-  const Vec3 way = t * options.velocity + 0.5 * t * (t + s.clock.dt) * options.gravity;
+  const Vec3 way = t * options.particles[0].velocity + 0.5 * t * (t + s.clock.dt) * options.gravity;
   EXPECT_NEAR((momentum(s.nodes).centre() - centre - way).norm(), 0.0, 1e-9);
   EXPECT_LT(s.ledger.max_closure_error, 1e-6);
   EXPECT_NEAR((momentum(s.nodes).angular - s.reference.start.angular - s.totals.gravity.angular).norm(), 0.0, 1e-9);
@@ -71,6 +74,12 @@ TEST(Gravity, AFallingBodyTurnsPotentialIntoKineticEnergyExactly) {
 
 /// A coarse elastic zeolite sphere of 1.5 mm, its lowest node 1 nm above z = 0.
 Granule small_granule() { return {.element_size = 0.3e-3, .contact_element_size = 0.3e-3}; }
+
+Simulation simulation_of(const Granule& granule, const TetMesh& mesh) {
+  SimulationOptions options = granule.options;
+  options.particles = {granule.particle};
+  return make_simulation(options, mesh);
+}
 
 TEST(Platen, PressingASphereDoesTheWorkThatTheSphereGains) {
   Granule granule = small_granule();
@@ -82,7 +91,7 @@ TEST(Platen, PressingASphereDoesTheWorkThatTheSphereGains) {
   platen.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));  // face down
   platen.motion = Ramp{{0, 0, -3}, 2e-6};
   granule.options.tools = {wall(0.2), platen};
-  Simulation s = make_simulation(granule.options, mesh);
+  Simulation s = simulation_of(granule, mesh);
   run_to(s, 12e-6);
   const double work = -s.ledger[EnergyTerm::ToolWork];
   EXPECT_GT(work, 1e-6);
@@ -106,7 +115,7 @@ TEST(Pin, OfARotorNeverHasANodeInside) {
   pin.friction = 0.3;
   pin.motion = Rotation{pin.position - 0.05 * Vec3::UnitX() + Vec3(0.05, -0.05, 0), Vec3::UnitZ(), -rate};
   granule.options.tools = {pin};
-  Simulation s = make_simulation(granule.options, mesh);
+  Simulation s = simulation_of(granule, mesh);
   double deepest = 0.0;
   while (s.clock.time() < 5e-6) {
     ASSERT_EQ(step(s), StepStatus::Ok);
@@ -132,7 +141,7 @@ TEST(DropWeight, BouncesWithMomentumAndEnergyKept) {
   weight.motion = Guided{-Vec3::UnitZ(), speed, mass};
   granule.options.tools = {wall(), weight};
   granule.options.gravity = {0, 0, -1e4};  // large, to be seen in 60 us
-  Simulation s = make_simulation(granule.options, mesh);
+  Simulation s = simulation_of(granule, mesh);
   const double start = s.tools[1].state.position.z();
   double lowest = start;
   while (s.clock.time() < 100e-6 && (s.clock.step < 100 || s.tools[1].state.position.z() < start)) {
@@ -164,7 +173,7 @@ TEST(SurfaceTool, AnStlBlockPressesAsAPlatenDoes) {
     platen.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
     platen.motion = ConstantVelocity{{0, 0, -3}};
     granule.options.tools = {wall(0.2), platen};
-    Simulation s = make_simulation(granule.options, mesh);
+    Simulation s = simulation_of(granule, mesh);
     run_to(s, 3e-6);
     return s.tools[1].state;
   };
