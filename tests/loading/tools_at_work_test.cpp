@@ -5,7 +5,9 @@
 
 #include "contact/repair_surface.hpp"
 #include "core/errors.hpp"
+#include "core/parallel.hpp"
 #include "simulation/make_simulation.hpp"
+#include "simulation/persistent_arrays.hpp"
 #include "simulation/step.hpp"
 #include "tests/contact/stl_text.hpp"
 #include "tests/support/bar_mesh.hpp"
@@ -181,6 +183,72 @@ TEST(SurfaceTool, AnStlBlockPressesAsAPlatenDoes) {
   EXPECT_LT(platen.impulse.z(), 0.0);
   EXPECT_NEAR((block.impulse - platen.impulse).norm(), 0.0, 1e-9 * platen.impulse.norm());
   EXPECT_NEAR(block.work, platen.work, 1e-9 * platen.work);
+}
+
+/// A breaking granule between an STL block and a drop weight under gravity, both met at once.
+Simulation crushed_granule() {
+  Granule granule = small_granule();
+  granule.particle.fracture = zeolite_fracture();
+  const TetMesh mesh = granule_mesh(granule);
+  ToolOptions anvil;
+  anvil.shape = SurfaceTool{repaired_surface(cube_soup(1e-3), "anvil")};
+  anvil.position = {-0.4e-3, -0.1e-3, -1e-3};  // the granule rests between its edge and its face
+  anvil.friction = 0.3;
+  ToolOptions weight;
+  weight.shape = DiscPlaten{1e-3, 1e-3};
+  weight.position.z() = bounding_box(mesh).high.z() + 1e-9;
+  weight.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+  weight.motion = Guided{-Vec3::UnitZ(), 20.0, 1e-4};
+  granule.options.tools = {anvil, weight};
+  granule.options.gravity = {0, 0, -g};
+  return simulation_of(granule, mesh);
+}
+
+TEST(ToolsAtWork, HaveTheSameBitsForAnyNumberOfThreadsAndAcrossAResume) {
+  std::vector<std::string> hashes;
+  Checkpoint half;
+  for (const int threads : {1, 3}) {
+    set_num_threads(threads);
+    Simulation s = crushed_granule();
+    for (int n = 0; n < 301; ++n) {
+      if (n == 130) half = make_checkpoint(s);
+      ASSERT_EQ(step(s), StepStatus::Ok);
+    }
+    EXPECT_GT(s.totals.inserted_facets, 0);
+    for (const Tool& tool : s.tools) EXPECT_GE(tool.state.first_step, 0);
+    EXPECT_LT(s.ledger.max_closure_error, 1e-3);
+    hashes.push_back(state_hash(s));
+  }
+  Simulation resumed = crushed_granule();
+  restore_checkpoint(resumed, half);
+  for (int n = 130; n < 301; ++n) ASSERT_EQ(step(resumed), StepStatus::Ok);
+  hashes.push_back(state_hash(resumed));
+  set_num_threads(0);
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_EQ(hashes[2], hashes[0]);
+}
+
+TEST(ToolPlacement, AShellThatNodesCouldCrossInAStepIsRefused) {
+  Granule granule = small_granule();
+  granule.particle.velocity = {0, 0, -100};
+  Soup side = cube_soup(1e-3);
+  side.resize(2);
+  ToolOptions shell;
+  shell.name = "blade";
+  shell.position = {2e-3, 0, 0};
+  const auto refusal = [&](double thickness) {
+    shell.shape = SurfaceTool{repaired_surface(side, "side"), thickness};
+    granule.options.tools = {shell};
+    try {
+      make_granule(granule);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(0.0).find("tool 'blade': the surface is open: 4 edges"), std::string::npos) << refusal(0.0);
+  EXPECT_NE(refusal(1e-6).find("tool 'blade': a shell of 1 um is too thin"), std::string::npos) << refusal(1e-6);
+  EXPECT_EQ(refusal(0.1e-3), "");
 }
 
 TEST(ToolPlacement, AToolInsideTheParticleIsRefusedWithNameAndDepth) {
