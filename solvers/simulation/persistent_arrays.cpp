@@ -270,6 +270,7 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.plain("rigid.push", s.rigid.push);
   visit.plain("freezing.last_change", s.freezing.last_change);
   visit.plain("freezing.noted_damage", s.freezing.noted_damage);
+  visit.plain("freezing.lets_go", s.freezing.lets_go);
   visit_single(visit, "freezing", s.freezing);
   visit_single(visit, "branch", s.elastic.branch);
   visit_single(visit, "clock", s.clock);

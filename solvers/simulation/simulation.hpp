@@ -66,6 +66,7 @@ struct RunTotals {
 struct FreezingState {
   std::vector<std::int64_t> last_change;  ///< by tet: step of the last insertion, damage or waking around it
   std::vector<double> noted_damage;       ///< by facet: mean over its corners when a change was last noticed, -1 = none
+  std::vector<std::uint8_t> lets_go;      ///< by tet: crack faces alone keep its fragment from freezing
   double vibration = 0.0;                 ///< energy that freezing has taken so far [J]
 };
 

@@ -45,6 +45,7 @@ void expect_keys(const json& report) {
                               "/energy/tool_friction",
                               "/energy/tool_impact",
                               "/energy/viscous",
+                              "/energy/rigid_vibration",
                               "/energy/mass_scaling",
                               "/energy/tool_work",
                               "/momentum/linear_error",
