@@ -5,14 +5,20 @@
 
 namespace knap {
 
+/// A point of an edge and the direction it sticks out in, both in the tool's frame.
+struct EdgePoint {
+  Vec3 place = Vec3::Zero();    ///< [m]
+  Vec3 outward = Vec3::Zero();  ///< unit, or zero where edges stick out in opposite directions
+};
+
 /// Points on the edges and corners of a tool that could poke between nodes through a face of the particle, not further
 /// apart than `spacing` [m], in the tool's frame: rims of platens and cylinders; of closed surfaces the edges that
 /// stick out by more than 10 deg, of shells all such edges and the rim (the middle of its thickness).
-std::vector<Vec3> edge_points(const HalfSpace& shape, double spacing);
-std::vector<Vec3> edge_points(const DiscPlaten& shape, double spacing);
-std::vector<Vec3> edge_points(const BallTool& shape, double spacing);
-std::vector<Vec3> edge_points(const CylinderTool& shape, double spacing);
-std::vector<Vec3> edge_points(const SurfaceTool& shape, double spacing);
+std::vector<EdgePoint> edge_points(const HalfSpace& shape, double spacing);
+std::vector<EdgePoint> edge_points(const DiscPlaten& shape, double spacing);
+std::vector<EdgePoint> edge_points(const BallTool& shape, double spacing);
+std::vector<EdgePoint> edge_points(const CylinderTool& shape, double spacing);
+std::vector<EdgePoint> edge_points(const SurfaceTool& shape, double spacing);
 
 /// Points that can be asked for by box; plain data, halved along the longest side.
 struct PointTree {
@@ -21,10 +27,10 @@ struct PointTree {
     Index first = 0, count = 0;                    ///< points of a leaf; count 0 = two boxes within
     Index second = none;                           ///< the second box within; the first follows its parent
   };
-  std::vector<Vec3> points;  ///< [m]
+  std::vector<EdgePoint> points;
   std::vector<Box> boxes;
 };
-PointTree make_point_tree(std::vector<Vec3> points);
+PointTree make_point_tree(std::vector<EdgePoint> points);
 
 /// Lower bound, never above the true one, of the distance between a box and the points [m]; infinite without points.
 double distance_to(const PointTree& tree, const ShapeBox& box);

@@ -11,10 +11,12 @@ namespace {
 constexpr Index tets_per_block = 512;
 // Of the distance to an edge, what the way towards it may use up until the next look; the rest is for round-off.
 constexpr double part_of_gap = 0.999;
+// Cosine between the way an edge sticks out and the inward normal of a face that it can meet.
+constexpr double least_against = 0.1;
 
 double radius_about_origin(const PointTree& tree) {
   double radius = 0.0;
-  for (const Vec3& point : tree.points) radius = std::max(radius, point.norm());
+  for (const EdgePoint& point : tree.points) radius = std::max(radius, point.place.norm());
   return radius;
 }
 
@@ -70,12 +72,15 @@ struct TetAtTool {
   }
 };
 
-// The free face that a point inside is nearest to; every tet here has one.
-std::size_t nearest_free_face(const TetAtTool& tet, const std::array<double, 4>& lambda, unsigned faces) {
+// The free face nearest to a point inside that the tool could have come through there, moving the way its edge sticks
+// out; 4 = none. A ridge that slides out of a block's flank must not be stopped by the flank.
+std::size_t face_met(const TetAtTool& tet, const std::array<double, 4>& lambda, unsigned faces, const Vec3& outward) {
   std::size_t nearest = 4;
   const auto depth = [&](std::size_t i) { return lambda[i] / tet.gradient[i].norm(); };
-  for (std::size_t i = 0; i < 4; ++i)
-    if ((faces >> i & 1u) != 0 && (nearest == 4 || depth(i) < depth(nearest))) nearest = i;
+  for (std::size_t i = 0; i < 4; ++i) {
+    const bool against = tet.gradient[i].dot(outward) >= least_against * tet.gradient[i].norm();
+    if ((faces >> i & 1u) != 0 && against && (nearest == 4 || depth(i) < depth(nearest))) nearest = i;
+  }
   return nearest;
 }
 
@@ -84,10 +89,11 @@ void add_touches(std::vector<EdgeTouch>& touches, const Tool& tool, Index number
   tet.find_gradients();
   if (tet.flat) return;
   for (const Index point : points_in(tree, tet.box())) {
-    const Vec3& local = tree.points[at(point)];
+    const auto& [local, outward] = tree.points[at(point)];
     const auto lambda = tet.coordinates(local);
     if (*std::min_element(lambda.begin(), lambda.end()) < 0.0) continue;
-    const std::size_t face = nearest_free_face(tet, lambda, faces);
+    const std::size_t face = face_met(tet, lambda, faces, outward);
+    if (face == 4) continue;
     const double on_face = 1.0 - lambda[face];
     if (!(on_face > 0.0)) continue;
     EdgeTouch touch;

@@ -23,8 +23,13 @@ struct ToolInStep {
   const Shape& shape;
   const ToolStep& step;
   ToolFrame begin{tool.state.pose()}, end{tool.next};
+  ShapeBox own = bounding_box(shape);
 
   SurfaceDistance distance_after(const Vec3& point) const { return surface_distance(shape, end.local(point)); }
+
+  bool is_in_box(const Vec3& local) const {
+    return (local.array() >= own.low.array()).all() && (local.array() <= own.high.array()).all();
+  }
 
   bool is_rigid(Index node) const { return at(node) < step.body_of_node.size() && step.body_of_node[at(node)] != none; }
 
@@ -40,7 +45,9 @@ struct ToolInStep {
   std::optional<NodeLanding> landing(const NodalState& nodes, Index node) const {
     const Vec3 x = xyz(nodes.x[at(node)]), v = xyz(nodes.v[at(node)]);
     const Vec3 after = x + step.dt * v;
-    const SurfaceDistance distance = distance_after(after);
+    const Vec3 local = end.local(after);
+    if (!is_in_box(local)) return std::nullopt;
+    const SurfaceDistance distance = surface_distance(shape, local);
     if (!(distance.gap < 0.0) || is_rigid(node)) return std::nullopt;
     const NodeApproach a = approach(x, v, after, distance);
     if (!(a.stop > 0.0)) return std::nullopt;
@@ -57,7 +64,6 @@ struct ToolInStep {
 
   // Whether any point of a box could be inside. Widened by more than round-off.
   bool may_reach(const ShapeBox& box) const {
-    const ShapeBox own = bounding_box(shape);
     const Vec3 centre = end.local(0.5 * (box.low + box.high));
     const Vec3 half = end.rotation.transpose().cwiseAbs() * (0.5 * (box.high - box.low));
     const double round_off = 1e-12 * (centre.norm() + half.norm() + end.position.norm());

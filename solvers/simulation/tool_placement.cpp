@@ -45,10 +45,28 @@ void check_points(const Simulation& s, const Tool& tool) {
   }
 }
 
+// A node that crosses half of a shell's thickness in a step would be pushed out of its other side.
+void check_thickness(const Simulation& s, const Tool& tool) {
+  constexpr double smallest_steps = 4.0;  // fragments may fly faster than the particle came
+  const auto* shell = std::get_if<SurfaceTool>(&tool.shape);
+  if (!shell || shell->surface.closed) return;
+  const ShapeBox box = bounding_box(*shell);
+  const double reach = box.low.cwiseAbs().cwiseMax(box.high.cwiseAbs()).norm();
+  double speed = 0.0;
+  for (const Vec4& v : s.nodes.v) speed = std::max(speed, (xyz(v) - tool.state.velocity).norm());
+  const double way = s.clock.dt * (speed + reach * tool.state.spin.norm());
+  if (0.5 * shell->thickness >= smallest_steps * way) return;
+  throw InputError(
+      fmt::format("tool '{}': a shell of {:.3g} um is too thin: nodes move {:.3g} um in a step; give it {:.3g} "
+                  "um at least, or close the surface",
+                  tool.name, 1e6 * shell->thickness, 1e6 * way, 2e6 * smallest_steps * way));
+}
+
 }  // namespace
 
 void check_tools_are_outside(const Simulation& s) {
   for (const Tool& tool : s.tools) {
+    check_thickness(s, tool);
     check_nodes(s, tool);
     check_points(s, tool);
   }

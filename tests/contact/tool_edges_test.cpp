@@ -20,15 +20,15 @@ Vec3 random_point(std::uint64_t& random) {
 
 TEST(PointTree, FindsWhatIsInABoxAndIsNeverTooFar) {
   std::uint64_t random = 1;
-  std::vector<Vec3> points;
-  for (int i = 0; i < 500; ++i) points.push_back(random_point(random));
+  std::vector<EdgePoint> points;
+  for (int i = 0; i < 500; ++i) points.push_back({random_point(random), Vec3::UnitZ()});
   const PointTree tree = make_point_tree(points);
   for (int i = 0; i < 200; ++i) {
     const Vec3 a = 1.5 * random_point(random), b = a + 0.3 * random_point(random);
     const ShapeBox box{a.cwiseMin(b), a.cwiseMax(b)};
     std::size_t inside = 0;
     double nearest = 1e300;
-    for (const Vec3& p : points) {
+    for (const auto& [p, outward] : points) {
       const double distance = (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).norm();
       nearest = std::min(nearest, distance);
       inside += distance == 0.0 ? 1 : 0;
@@ -42,7 +42,8 @@ TEST(PointTree, FindsWhatIsInABoxAndIsNeverTooFar) {
 TEST(EdgePoints, AreOnTheEdgesThatStickOut) {
   const auto on_cube = edge_points(SurfaceTool{repaired_surface(cube_soup(), "cube")}, 0.3);
   EXPECT_EQ(on_cube.size(), 8u + 12u * 3u);
-  for (const Vec3& p : on_cube) {
+  for (const auto& [p, outward] : on_cube) {
+    EXPECT_GT(outward.dot(p - Vec3::Constant(0.5)), 0.5);
     const auto at_side = [](double x) { return x == 0.0 || x == 1.0; };
     EXPECT_GE(int{at_side(p.x())} + int{at_side(p.y())} + int{at_side(p.z())}, 2) << p.transpose();
   }
@@ -53,7 +54,8 @@ TEST(EdgePoints, AreOnTheEdgesThatStickOut) {
   }
   EXPECT_EQ(edge_points(SurfaceTool{repaired_surface(hollow, "box")}, 1.5).size(), 8u + 12u);  // the cavity's point in
   EXPECT_TRUE(edge_points(BallTool{1.0}, 0.1).empty());
-  for (const Vec3& p : edge_points(DiscPlaten{2.0, 0.5}, 0.1)) {
+  for (const auto& [p, outward] : edge_points(DiscPlaten{2.0, 0.5}, 0.1)) {
+    EXPECT_GT(outward.dot(p + 0.25 * Vec3::UnitZ()), 1.0);
     EXPECT_NEAR(std::hypot(p.x(), p.y()), 2.0, 1e-12);
     EXPECT_TRUE(p.z() == 0.0 || p.z() == -0.5);
   }
@@ -82,8 +84,8 @@ constexpr double cell = 0.1e-3;
 Simulation block_on_a_ridge(double friction, const Vec3& velocity) {
   TetMesh mesh = bar_mesh({6, 6, 3}, cell);
   for (Vec3& x : mesh.vertices) x += Vec3(-2.6 * cell, -2.9 * cell, 1e-7);
-  SimulationOptions options{.young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0};
-  options.velocity = velocity;
+  SimulationOptions options;
+  options.particles = {{.young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0, .velocity = velocity}};
   ToolOptions tool;
   tool.shape = roof(2e-3, 0.5);
   tool.friction = friction;

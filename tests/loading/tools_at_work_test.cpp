@@ -5,7 +5,9 @@
 
 #include "contact/repair_surface.hpp"
 #include "core/errors.hpp"
+#include "core/parallel.hpp"
 #include "simulation/make_simulation.hpp"
+#include "simulation/persistent_arrays.hpp"
 #include "simulation/step.hpp"
 #include "tests/contact/stl_text.hpp"
 #include "tests/support/bar_mesh.hpp"
@@ -15,13 +17,15 @@ namespace knap {
 namespace {
 
 constexpr double g = 9.81;
+const ParticleOptions rubber{.young_modulus = 1e6, .poisson_ratio = 0.25, .density = 1000.0};
 
 /// A soft block of 20 mm on a wall inclined by `angle`, under gravity; damped, so that it comes to rest.
 Simulation block_on_incline(double angle, double friction) {
   TetMesh mesh = bar_mesh({2, 2, 2}, 0.01);
-  SimulationOptions options{.young_modulus = 1e6, .poisson_ratio = 0.25, .density = 1000.0};
-  options.viscous_ratio = 0.5;
-  options.relaxation_time = 2e-3;
+  SimulationOptions options;
+  options.particles = {rubber};
+  options.particles[0].viscous_ratio = 0.5;
+  options.particles[0].relaxation_time = 2e-3;
   options.tools = {wall(friction)};
   options.gravity = g * Vec3(std::sin(angle), 0, -std::cos(angle));
   return make_simulation(options, mesh);
@@ -55,15 +59,16 @@ TEST(Incline, ABlockSlidesWithTheAccelerationThatFrictionLeaves) {
 }
 
 TEST(Gravity, AFallingBodyTurnsPotentialIntoKineticEnergyExactly) {
-  SimulationOptions options{.young_modulus = 1e6, .poisson_ratio = 0.25, .density = 1000.0};
+  SimulationOptions options;
+  options.particles = {rubber};
   options.gravity = {0, 0, -g};
-  options.velocity = {1, 0, 2};
-  options.spin = {0, 30, 0};
+  options.particles[0].velocity = {1, 0, 2};
+  options.particles[0].spin = {0, 30, 0};
   Simulation s = make_simulation(options, bar_mesh({1, 1, 2}, 0.01));
   const Vec3 centre = momentum(s.nodes).centre();
   run_to(s, 0.2);
   const double t = s.clock.time();  // the first kick comes at time 0: the start is half a step earlier
-  const Vec3 way = t * options.velocity + 0.5 * t * (t + s.clock.dt) * options.gravity;
+  const Vec3 way = t * options.particles[0].velocity + 0.5 * t * (t + s.clock.dt) * options.gravity;
   EXPECT_NEAR((momentum(s.nodes).centre() - centre - way).norm(), 0.0, 1e-9);
   EXPECT_LT(s.ledger.max_closure_error, 1e-6);
   EXPECT_NEAR((momentum(s.nodes).angular - s.reference.start.angular - s.totals.gravity.angular).norm(), 0.0, 1e-9);
@@ -71,6 +76,12 @@ TEST(Gravity, AFallingBodyTurnsPotentialIntoKineticEnergyExactly) {
 
 /// A coarse elastic zeolite sphere of 1.5 mm, its lowest node 1 nm above z = 0.
 Granule small_granule() { return {.element_size = 0.3e-3, .contact_element_size = 0.3e-3}; }
+
+Simulation simulation_of(const Granule& granule, const TetMesh& mesh) {
+  SimulationOptions options = granule.options;
+  options.particles = {granule.particle};
+  return make_simulation(options, mesh);
+}
 
 TEST(Platen, PressingASphereDoesTheWorkThatTheSphereGains) {
   Granule granule = small_granule();
@@ -82,7 +93,7 @@ TEST(Platen, PressingASphereDoesTheWorkThatTheSphereGains) {
   platen.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));  // face down
   platen.motion = Ramp{{0, 0, -3}, 2e-6};
   granule.options.tools = {wall(0.2), platen};
-  Simulation s = make_simulation(granule.options, mesh);
+  Simulation s = simulation_of(granule, mesh);
   run_to(s, 12e-6);
   const double work = -s.ledger[EnergyTerm::ToolWork];
   EXPECT_GT(work, 1e-6);
@@ -106,7 +117,7 @@ TEST(Pin, OfARotorNeverHasANodeInside) {
   pin.friction = 0.3;
   pin.motion = Rotation{pin.position - 0.05 * Vec3::UnitX() + Vec3(0.05, -0.05, 0), Vec3::UnitZ(), -rate};
   granule.options.tools = {pin};
-  Simulation s = make_simulation(granule.options, mesh);
+  Simulation s = simulation_of(granule, mesh);
   double deepest = 0.0;
   while (s.clock.time() < 5e-6) {
     ASSERT_EQ(step(s), StepStatus::Ok);
@@ -132,7 +143,7 @@ TEST(DropWeight, BouncesWithMomentumAndEnergyKept) {
   weight.motion = Guided{-Vec3::UnitZ(), speed, mass};
   granule.options.tools = {wall(), weight};
   granule.options.gravity = {0, 0, -1e4};  // large, to be seen in 60 us
-  Simulation s = make_simulation(granule.options, mesh);
+  Simulation s = simulation_of(granule, mesh);
   const double start = s.tools[1].state.position.z();
   double lowest = start;
   while (s.clock.time() < 100e-6 && (s.clock.step < 100 || s.tools[1].state.position.z() < start)) {
@@ -164,7 +175,7 @@ TEST(SurfaceTool, AnStlBlockPressesAsAPlatenDoes) {
     platen.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
     platen.motion = ConstantVelocity{{0, 0, -3}};
     granule.options.tools = {wall(0.2), platen};
-    Simulation s = make_simulation(granule.options, mesh);
+    Simulation s = simulation_of(granule, mesh);
     run_to(s, 3e-6);
     return s.tools[1].state;
   };
@@ -172,6 +183,72 @@ TEST(SurfaceTool, AnStlBlockPressesAsAPlatenDoes) {
   EXPECT_LT(platen.impulse.z(), 0.0);
   EXPECT_NEAR((block.impulse - platen.impulse).norm(), 0.0, 1e-9 * platen.impulse.norm());
   EXPECT_NEAR(block.work, platen.work, 1e-9 * platen.work);
+}
+
+/// A breaking granule between an STL block and a drop weight under gravity, both met at once.
+Simulation crushed_granule() {
+  Granule granule = small_granule();
+  granule.particle.fracture = zeolite_fracture();
+  const TetMesh mesh = granule_mesh(granule);
+  ToolOptions anvil;
+  anvil.shape = SurfaceTool{repaired_surface(cube_soup(1e-3), "anvil")};
+  anvil.position = {-0.4e-3, -0.1e-3, -1e-3};  // the granule rests between its edge and its face
+  anvil.friction = 0.3;
+  ToolOptions weight;
+  weight.shape = DiscPlaten{1e-3, 1e-3};
+  weight.position.z() = bounding_box(mesh).high.z() + 1e-9;
+  weight.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+  weight.motion = Guided{-Vec3::UnitZ(), 20.0, 1e-4};
+  granule.options.tools = {anvil, weight};
+  granule.options.gravity = {0, 0, -g};
+  return simulation_of(granule, mesh);
+}
+
+TEST(ToolsAtWork, HaveTheSameBitsForAnyNumberOfThreadsAndAcrossAResume) {
+  std::vector<std::string> hashes;
+  Checkpoint half;
+  for (const int threads : {1, 3}) {
+    set_num_threads(threads);
+    Simulation s = crushed_granule();
+    for (int n = 0; n < 301; ++n) {
+      if (n == 130) half = make_checkpoint(s);
+      ASSERT_EQ(step(s), StepStatus::Ok);
+    }
+    EXPECT_GT(s.totals.inserted_facets, 0);
+    for (const Tool& tool : s.tools) EXPECT_GE(tool.state.first_step, 0);
+    EXPECT_LT(s.ledger.max_closure_error, 1e-3);
+    hashes.push_back(state_hash(s));
+  }
+  Simulation resumed = crushed_granule();
+  restore_checkpoint(resumed, half);
+  for (int n = 130; n < 301; ++n) ASSERT_EQ(step(resumed), StepStatus::Ok);
+  hashes.push_back(state_hash(resumed));
+  set_num_threads(0);
+  EXPECT_EQ(hashes[1], hashes[0]);
+  EXPECT_EQ(hashes[2], hashes[0]);
+}
+
+TEST(ToolPlacement, AShellThatNodesCouldCrossInAStepIsRefused) {
+  Granule granule = small_granule();
+  granule.particle.velocity = {0, 0, -100};
+  Soup side = cube_soup(1e-3);
+  side.resize(2);
+  ToolOptions shell;
+  shell.name = "blade";
+  shell.position = {2e-3, 0, 0};
+  const auto refusal = [&](double thickness) {
+    shell.shape = SurfaceTool{repaired_surface(side, "side"), thickness};
+    granule.options.tools = {shell};
+    try {
+      make_granule(granule);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(refusal(0.0).find("tool 'blade': the surface is open: 4 edges"), std::string::npos) << refusal(0.0);
+  EXPECT_NE(refusal(1e-6).find("tool 'blade': a shell of 1 um is too thin"), std::string::npos) << refusal(1e-6);
+  EXPECT_EQ(refusal(0.1e-3), "");
 }
 
 TEST(ToolPlacement, AToolInsideTheParticleIsRefusedWithNameAndDepth) {
