@@ -50,13 +50,15 @@ struct RigidFragmentOptions {
 struct SimulationOptions {
   std::vector<ParticleOptions> particles = std::vector<ParticleOptions>(1);  ///< one for each mesh
   std::vector<ToolOptions> tools{};
-  double step_safety = 0.5;    ///< time step over the nodal stability bound
-  int insertion_interval = 4;  ///< steps between two checks of the insertion criterion
-  int label_interval = 48;     ///< steps between two looks for new fragments
-  int ledger_interval = 24;    ///< steps between two energy balances
-  int impulse_sweeps = 2;      ///< Gauss-Seidel sweeps of the vertex impulses
-  int contact_sweeps = 4;      ///< Gauss-Seidel sweeps of the general contact
+  Vec3 gravity = Vec3::Zero();  ///< [m/s2]
+  double step_safety = 0.5;     ///< time step over the nodal stability bound
+  int insertion_interval = 4;   ///< steps between two checks of the insertion criterion
+  int label_interval = 48;      ///< steps between two looks for new fragments
+  int ledger_interval = 24;     ///< steps between two energy balances
+  int impulse_sweeps = 2;       ///< Gauss-Seidel sweeps of the vertex impulses
+  int contact_sweeps = 4;       ///< Gauss-Seidel sweeps of the general contact
   RigidFragmentOptions rigid_fragments{};
+  double restitution = 0.0;  ///< between rigid fragments: speed of parting over speed of approach [-]
 };
 
 /// Whether any particle can break.

@@ -78,6 +78,12 @@ constexpr auto fields(const BranchState*) {
                     Field{"pending", &BranchState::pending}, Field{"dissipated", &BranchState::dissipated}};
 }
 constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
+constexpr auto fields(const GravityImpulse*) {
+  return std::tuple{Field{"linear", &GravityImpulse::linear}, Field{"angular", &GravityImpulse::angular}};
+}
+constexpr auto fields(const ForceWatch*) {
+  return std::tuple{Field{"impulse", &ForceWatch::impulse}, Field{"largest", &ForceWatch::largest}};
+}
 constexpr auto fields(const ToolState*) {
   return std::tuple{Field{"position", &ToolState::position},
                     Field{"orientation", &ToolState::orientation},
@@ -264,11 +270,14 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.plain("rigid.push", s.rigid.push);
   visit.plain("freezing.last_change", s.freezing.last_change);
   visit.plain("freezing.noted_damage", s.freezing.noted_damage);
+  visit.plain("freezing.lets_go", s.freezing.lets_go);
   visit_single(visit, "freezing", s.freezing);
   visit_single(visit, "branch", s.elastic.branch);
   visit_single(visit, "clock", s.clock);
   visit_single(visit, "totals", s.totals);
   visit_tools(visit, s.tools);
+  visit_single(visit, "gravity", s.totals.gravity);
+  visit_single(visit, "force_watch", s.totals.force_watch);
   visit_single(visit, "ledger", s.ledger);
   visit_single(visit, "last_good_ledger", s.last_good_ledger);
 }
@@ -291,12 +300,12 @@ std::string case_hash(const Simulation& s) {
                          particle.spin.z()});
   }
   hash.add(s.reference.particle_of_tet);
-  hash.add(std::vector{o.step_safety});
+  hash.add(std::vector{o.step_safety, o.gravity.x(), o.gravity.y(), o.gravity.z()});
   for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
   const RigidFragmentOptions& r = o.rigid_fragments;
   hash.add(std::vector{r.enabled ? 1.0 : 0.0, r.quiet_crossings, static_cast<double>(r.quiet_steps),
                        r.noticeable_damage, r.strain_share, r.vibration_share, r.loss_share, r.approach_share,
-                       r.load_share});
+                       r.load_share, o.restitution});
   hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
   return hash.hex();
 }

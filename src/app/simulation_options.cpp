@@ -43,13 +43,25 @@ ParticleOptions particle_options(const ParticleConfig& particle, const ImpactCon
 
 }  // namespace
 
+Vec3 start_velocity(const RunConfig& config, const ParticleConfig& particle) {
+  return particle.velocity.value_or(impact_velocity(config.impact));
+}
+
 SimulationOptions simulation_options(const RunConfig& config) {
   SimulationOptions options{.particles = {},
-                            .tools = {wall(config.impact.wall_friction)},
+                            .gravity = config.run.gravity,
                             .step_safety = config.run.step_safety,
                             .insertion_interval = config.run.insertion_interval};
   for (const ParticleConfig& particle : config.particles)
     options.particles.push_back(particle_options(particle, config.impact));
+  const ContactConfig& contact = config.contact;
+  options.rigid_fragments.enabled = contact.rigid_fragments;
+  if (contact.rigid_fragments) {
+    options.rigid_fragments.quiet_crossings = contact.freeze_after_crossings;
+    options.rigid_fragments.approach_share = contact.wake_at_speed_share;
+    options.rigid_fragments.load_share = contact.wake_at_load_share;
+    options.restitution = contact.restitution;
+  }
   return options;
 }
 
