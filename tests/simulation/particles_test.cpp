@@ -91,21 +91,19 @@ TEST(Particles, TwoEqualSpheresAreOneOnAFrictionlessWall) {
   Simulation two = two_spheres(granule);
   granule.options.tools = {wall()};
   Simulation one = make_granule(granule);
-  const double end = 6e-6, window = 0.15e-6;
+  const double end = 1.1e-5, window = 0.15e-6;
   const Impact expected = run_impact(one, 0, end, window), found = run_impact(two, 0, end, window);
-  std::printf("force %g time %g e %g %g tets %d\n", found.force / expected.force, found.time / expected.time,
-              found.restitution, expected.restitution, two.topology.num_tets());
-  EXPECT_NEAR(found.force / expected.force, 1.0, 0.02);
-  EXPECT_NEAR(found.time / expected.time, 1.0, 0.02);
-  EXPECT_NEAR(found.restitution, expected.restitution, 0.01);
+  EXPECT_NEAR(found.force / expected.force, 1.0, 0.005);
+  EXPECT_NEAR(found.time / expected.time, 1.0, 0.005);
+  EXPECT_NEAR(found.restitution, expected.restitution, 0.003);
   EXPECT_LT(two.ledger.max_closure_error, 1e-4);
 }
 
 // Chung & Ooi 2011, benchmark 1: glass spheres of 20 mm at +-10 m/s. Largest force of their curve, and the time in
-// which 1 to 99 % of its integral pass. The curve is Hertz's; of spheres this fast the contact is 1.5 to 3 % shorter
-// and stronger than that, see hertz_test.cpp.
+// which 1 to 99 % of its integral pass. The curve is Hertz's law; at this rho v^2/E* of 5.6e-6 the answer is 3.5 %
+// above it and 2.7 % shorter, see hertz_test.cpp. The rest is the mesh, five elements to the contact radius.
 TEST(Particles, ForceOfTwoGlassSpheresIsTheBenchmarks) {
-  Granule granule{.diameter = 20e-3, .element_size = 2.5e-3, .contact_element_size = 0.3e-3, .contact_extent = 2e-3};
+  Granule granule{.diameter = 20e-3, .element_size = 1.4e-3, .contact_element_size = 0.24e-3, .contact_extent = 2.3e-3};
   granule.particle = {.young_modulus = 48e9, .poisson_ratio = 0.2, .density = 2800.0};
   granule.particle.friction = 0.0;
   granule.particle.velocity = {0.0, 0.0, -10.0};
@@ -114,9 +112,6 @@ TEST(Particles, ForceOfTwoGlassSpheresIsTheBenchmarks) {
   const Impact found = run_impact(s, 0, 46e-6, 1e-6);
   EXPECT_NEAR(found.force / 10.7039e3, 1.0, 0.05);
   EXPECT_NEAR(found.time / 33.041e-6, 1.0, 0.05);
-  RecordProperty("force", std::to_string(found.force / 10.7039e3));
-  std::printf("force %g time %g e %g tets %d\n", found.force / 10.7039e3, found.time / 33.041e-6, found.restitution,
-              s.topology.num_tets());
 }
 
 // Two bars meet end to end. Behind the waves both ends move with Z1 v/(Z1 + Z2), at the stress that the impedance
