@@ -86,18 +86,9 @@ void land(std::span<const Tool> tools, NodalState& nodes, std::vector<NodeLandin
   block = std::move(settled);
 }
 
-// What a tool's impulses at one place did.
-struct Deed {
-  Vec3 place;          // on the tool [m]
-  Vec3 origin;         // of the tool at the same time [m]
-  Vec3 push, drag;     // [N s]
-  Vec3 mean_velocity;  // of the particle there, before and after all impulses [m/s]
-  Vec3 lever;          // where the impulses act on the particle [m]
-};
-
 // The tool's velocity is the mean of before and after the impulses, as the particle's is: what rides on a tool that
 // gathers speed loses nothing.
-void add(ToolAction& sum, const ToolState& state, const Deed& deed) {
+void add(ToolAction& sum, const ToolState& state, const ToolDeed& deed) {
   const Vec3 arm = deed.place - deed.origin;
   const Vec3 carried = 0.5 * (state.velocity + state.velocity_before + (state.spin + state.spin_before).cross(arm));
   const Vec3 impulse = deed.push + deed.drag;
@@ -114,8 +105,9 @@ Vec3 mean_velocity(const NodalState& nodes, Index node) {
   return 0.5 * (v + xyz(nodes.v_before[at(node)]));
 }
 
-Deed deed_of(const NodeLanding& landing, const Tool& tool, const NodalState& nodes) {
-  return {landing.end,
+ToolDeed deed_of(const NodeLanding& landing, const Tool& tool, const NodalState& nodes) {
+  return {landing.tool,
+          landing.end,
           tool.next.position,
           landing.push,
           landing.drag,
@@ -123,8 +115,8 @@ Deed deed_of(const NodeLanding& landing, const Tool& tool, const NodalState& nod
           xyz(nodes.x[at(landing.node)])};
 }
 
-Deed deed_of(const EdgeTouch& touch, const Tool& tool, const NodalState& nodes) {
-  Deed deed{touch.place, tool.state.position, touch.push, touch.drag, Vec3::Zero(), Vec3::Zero()};
+ToolDeed deed_of(const EdgeTouch& touch, const Tool& tool, const NodalState& nodes) {
+  ToolDeed deed{touch.tool, touch.place, tool.state.position, touch.push, touch.drag, Vec3::Zero(), Vec3::Zero()};
   for (std::size_t k = 0; k < 3; ++k) {
     deed.mean_velocity += touch.weights[k] * mean_velocity(nodes, touch.nodes[k]);
     deed.lever += touch.weights[k] * xyz(nodes.x[at(touch.nodes[k])]);
@@ -134,8 +126,9 @@ Deed deed_of(const EdgeTouch& touch, const Tool& tool, const NodalState& nodes) 
 
 // At the final velocities; summed by blocks of nodes, edges last.
 void book(std::span<Tool> tools, const NodalState& nodes, const ToolLandings& landings,
-          std::span<const EdgeTouch> touches, const ToolStep& step) {
+          std::span<const EdgeTouch> touches, std::span<const ToolDeed> deeds, const ToolStep& step) {
   std::vector<ToolAction> total(tools.size());
+  for (const ToolDeed& deed : deeds) add(total[at(deed.tool)], tools[at(deed.tool)].state, deed);
   for (const auto& block : landings) {
     std::vector<ToolAction> sum(tools.size());
     for (const NodeLanding& landing : block) {
@@ -168,7 +161,7 @@ void push_guided_tools_back(std::span<Tool> tools, std::span<const double> free_
 }  // namespace
 
 std::vector<Index> apply_tools(std::span<Tool> tools, NodalState& nodes, const ToolStep& step,
-                               std::span<EdgeTouch> touches) {
+                               std::span<EdgeTouch> touches, std::span<const ToolDeed> deeds) {
   push_edges(tools, nodes, touches, step.dt);
   std::vector<double> free_speed;
   for (const Tool& tool : tools) free_speed.push_back(tool.guide.dot(tool.state.velocity));
@@ -181,7 +174,7 @@ std::vector<Index> apply_tools(std::span<Tool> tools, NodalState& nodes, const T
     for_each_node(block, [&](const Group& group) { touched.push_back(group.front().node); });
   }
   push_guided_tools_back(tools, free_speed, landings, step.dt);
-  book(tools, nodes, landings, touches, step);
+  book(tools, nodes, landings, touches, deeds, step);
   if (touches.empty()) return touched;
   for (const EdgeTouch& touch : touches) touched.insert(touched.end(), touch.nodes.begin(), touch.nodes.end());
   std::sort(touched.begin(), touched.end());
