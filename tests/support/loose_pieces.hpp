@@ -29,6 +29,7 @@ inline SimulationOptions loose_options(bool rigid, double friction) {
   SimulationOptions options{.particles = {particle}};
   if (rigid)
     options.rigid_fragments = {.enabled = true,
+                               .whole = true,
                                .quiet_crossings = 0.0,
                                .quiet_steps = 0,
                                .strain_share = 1e300,
