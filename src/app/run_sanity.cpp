@@ -40,13 +40,19 @@ constexpr double right_angle = std::numbers::pi / 2.0;
 struct Approach {
   double speed = 0.0;           ///< [m/s]
   double angle = right_angle;   ///< from the surface [rad]
-  double pressing_speed = 0.0;  ///< of the fastest tool that will not be stopped [m/s]
+  double pressing_speed = 0.0;  ///< of the fastest tool that goes on [m/s]
 };
 
 Vec3 start_velocity(const ToolConfig& tool) {
   const Vec3 arm = tool.position.value_or(tool.rotation_centre) - tool.rotation_centre;
   return tool.motion == MotionKind::Rotation ? Vec3(tool.angular_speed * tool.rotation_axis.normalized().cross(arm))
                                              : tool.velocity;
+}
+
+// What the particle will not stop: a driven tool, or a free one that is heavier.
+bool goes_on_pressing(const ToolConfig& tool, const ParticleConfig& particle) {
+  if (tool.motion == MotionKind::Free) return tool.mass > particle.material.density * particle_volume(particle);
+  return tool.motion == MotionKind::Velocity || tool.motion == MotionKind::Ramp;
 }
 
 Approach approach(const RunConfig& config) {
@@ -67,7 +73,7 @@ Approach approach(const RunConfig& config) {
   if (result.speed == 0.0)  // by gravity alone: a fall of the size of the particles
     see(std::sqrt(2.0 * config.run.gravity.norm() * std::cbrt(particle_volume(config.particles.front()))), right_angle);
   for (const ToolConfig& tool : config.tools)
-    if (tool.motion == MotionKind::Velocity || tool.motion == MotionKind::Ramp)
+    if (goes_on_pressing(tool, config.particles.front()))
       result.pressing_speed = std::max(result.pressing_speed, tool.velocity.norm());
   return result;
 }

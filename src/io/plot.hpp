@@ -8,15 +8,15 @@ namespace knap {
 
 struct PlotSeries {
   enum class Style { Line, Points };
-  std::string name;  ///< in the legend, UTF-8 as all texts
+  std::string name{};  ///< in the legend, UTF-8 as all texts
   std::vector<double> x{}, y{};
   Style style = Style::Line;
 };
 
 struct PlotInput {
-  std::string title;
-  std::string x_label, y_label;  ///< with units
-  std::vector<PlotSeries> series;
+  std::string title{};
+  std::string x_label{}, y_label{};  ///< with units
+  std::vector<PlotSeries> series{};
   std::chrono::seconds timeout{60};  ///< for each attempt to draw
 };
 

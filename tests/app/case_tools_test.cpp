@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include <numbers>
+
 #include "config/load_config.hpp"
 #include "core/errors.hpp"
 #include "tests/support/bar_mesh.hpp"
@@ -74,7 +76,7 @@ TEST(CaseTools, AGivenPositionIsKept) {
       "type = \"sphere\"\nradius = 0.001\nposition = [0.1, 0, 0]\nmotion = \"rotation\"\n"
       "angular_speed = \"60 rpm\"\nrotation_centre = [0, 0, 0]\n");
   EXPECT_EQ(pin.position, Vec3(0.1, 0, 0));
-  EXPECT_DOUBLE_EQ(std::get<Rotation>(pin.motion).angular_speed, 2.0 * EIGEN_PI);
+  EXPECT_DOUBLE_EQ(std::get<Rotation>(pin.motion).angular_speed, 2.0 * std::numbers::pi);
 }
 
 TEST(CaseTools, AFreeToolIsGuidedAlongItsVelocityOrGravity) {

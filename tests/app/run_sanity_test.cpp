@@ -1,5 +1,6 @@
 #include "app/run_sanity.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "config/load_config.hpp"
@@ -49,6 +50,31 @@ TEST(RunSanity, AGivenEndTimeIsKept) {
   EXPECT_DOUBLE_EQ(given.end_time, 3e-6);
   EXPECT_FALSE(run_limits(given).automatic);
   EXPECT_DOUBLE_EQ(run_limits(given).end_time, 3e-6);
+}
+
+SanityCard card_of_tool(const std::string& motion) {
+  const RunConfig config = config_from_text(
+      "[particle]\ndiameter = \"2 mm\"\n[material]\npreset = \"zeolite_4ak\"\n[impact]\nwall = true\n"
+      "[[tool]]\ntype = \"platen\"\nradius = 0.003\nnormal = [0, 0, -1]\nvelocity = [0, 0, -0.5]\n" +
+          motion,
+      "case.toml");
+  return estimated_card(config, Sphere{2e-3});
+}
+
+// A tool that goes on loads the particle until it breaks, however slow it is: the contact grows to what an impact at
+// the critical speed has, and the run lasts until a quarter of the diameter is pressed.
+TEST(RunSanity, AToolThatPressesIsNoSlowImpact) {
+  for (const char* motion : {"motion = \"velocity\"\n", "motion = \"free\"\nmass = \"1 g\"\n"}) {
+    const SanityCard pressed = card_of_tool(motion);
+    const double critical = pressed.fracture->critical_speed;
+    const SanityCard impact = card({fmt::format("impact.speed={}", critical)});
+    EXPECT_NEAR(pressed.contact_radius.length, impact.contact_radius.length, 1e-6 * impact.contact_radius.length);
+    EXPECT_NEAR(pressed.peak_force, 8.34e6 * 4e-6 / 0.9, 1e-6 * pressed.peak_force);
+    EXPECT_GT(pressed.end_time, 0.25 * 2e-3 / 0.5);
+    EXPECT_LT(pressed.end_time, 0.26 * 2e-3 / 0.5);
+  }
+  const SanityCard light = card_of_tool("motion = \"free\"\nmass = \"1 mg\"\n");
+  EXPECT_LT(light.contact_radius.length, card({"impact.speed=1m/s"}).contact_radius.length);
 }
 
 }  // namespace
