@@ -38,10 +38,11 @@ constexpr double unbreakable = 1e12;
 
 /// A sphere of an alumina-like material, 2 mm, and its way to break.
 SimulationOptions alumina_like(double strength, const CohesiveLaw& law = {}) {
-  SimulationOptions options{.young_modulus = 15e9, .poisson_ratio = 0.25, .density = 2000.0};
+  ParticleOptions particle{.young_modulus = 15e9, .poisson_ratio = 0.25, .density = 2000.0};
+  particle.velocity = {0.0, 0.0, -30.0};
+  particle.fracture = FractureOptions{.law = law, .strength = strength, .fracture_energy = 20.0};
+  SimulationOptions options{.particles = {particle}};
   options.tools = {wall(0.3)};
-  options.velocity = {0.0, 0.0, -30.0};
-  options.fracture = FractureOptions{.law = law, .strength = strength, .fracture_energy = 20.0};
   return options;
 }
 

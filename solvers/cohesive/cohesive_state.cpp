@@ -37,8 +37,9 @@ void keep_records_with_faces(CrackState& cracks, std::span<const Index> facet_of
 
 }  // namespace
 
-CrackState make_crack_state(const Topology& topology) {
+CrackState make_crack_state(const Topology& topology, std::vector<Index> first_vertices) {
   CrackState cracks;
+  cracks.first_vertices = std::move(first_vertices);
   cracks.face_of_facet.assign(at(topology.num_facets()), none);
   cracks.record_offsets.assign(at(topology.num_vertices()) + 1, 0);
   cracks.losses_of_vertex.resize(at(topology.num_vertices()));

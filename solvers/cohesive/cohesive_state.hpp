@@ -88,6 +88,7 @@ struct CrackState {
   std::vector<CrackLosses> losses_of_vertex;       ///< up to the last step
   std::vector<CrackLosses> step_losses_of_vertex;  ///< of this step, may still be corrected
   std::vector<Index> vertices;                     ///< those with records, ascending
+  std::vector<Index> first_vertices;               ///< of the particles, each with a law of its own
   RecordGroups groups;                             ///< derived: the vertices as the vector kernels take them
   std::vector<Index> awake_faces;                  ///< derived: slots of the faces that do not sleep, if any sleeps
   bool any_sleeps = false;                         ///< derived: some face sleeps
@@ -102,8 +103,14 @@ struct CrackState {
   }
 };
 
-/// No crack anywhere.
-CrackState make_crack_state(const Topology& topology);
+/// The law of a vertex: the number of its particle.
+inline Index law_of_vertex(const CrackState& cracks, Index vertex) {
+  const auto& first = cracks.first_vertices;
+  return static_cast<Index>(std::upper_bound(first.begin(), first.end(), vertex) - first.begin()) - 1;
+}
+
+/// No crack anywhere, in particles that begin at these vertices, ascending.
+CrackState make_crack_state(const Topology& topology, std::vector<Index> first_vertices = {0});
 
 /// Adds faces and their records, in ascending order of vertex. The records' `face` is the position in `faces` here.
 struct VertexRecord {

@@ -18,16 +18,27 @@ bool has_parted(const CrackFace& face, std::span<const Vec4> x, bool one_fragmen
   return smallest > options.jump_everywhere * size || largest > options.jump_somewhere * size;
 }
 
+bool lets_go(const CrackFace& face, const Topology& topology, std::span<const Vec4> x, const HandOverOptions& options) {
+  if (options.lets_go.empty()) return false;
+  const auto& [minus, plus] = topology.facet_tets[at(face.facet)];
+  if (options.lets_go[at(minus)] == 0 && options.lets_go[at(plus)] == 0) return false;
+  const double least = -options.overlap_let_go * options.facet_size[at(face.facet)];
+  return std::all_of(face.nodes.begin(), face.nodes.end(), [&](const auto& pair) {
+    return (xyz(x[at(pair[1])]) - xyz(x[at(pair[0])])).dot(xyz(face.normal)) >= least;
+  });
+}
+
 }  // namespace
 
 Index hand_over_faces(CrackState& cracks, Topology& topology, std::span<const Vec4> x,
                       std::span<const Index> fragment_of_tet, const HandOverOptions& options) {
   Index count = 0;
   for (CrackFace& face : cracks.faces) {
-    if (topology.facet_state[at(face.facet)] != FacetState::Failed) continue;
+    if (topology.facet_state[at(face.facet)] != FacetState::Failed || face.sleeps) continue;
     const auto& [minus, plus] = topology.facet_tets[at(face.facet)];
     const bool one_fragment = fragment_of_tet[at(minus)] == fragment_of_tet[at(plus)];
-    if (!has_parted(face, x, one_fragment, options)) continue;
+    const bool released = !one_fragment && lets_go(face, topology, x, options);
+    if (!released && !has_parted(face, x, one_fragment, options)) continue;
     topology.facet_state[at(face.facet)] = FacetState::HandedOver;
     face.normal[3] = face.rotates() ? face_action::ends_and_rotates : face_action::ends;
     ++count;

@@ -17,11 +17,11 @@ Vec3 facet_normal(const Topology& topology, std::span<const Vec4> x, Index facet
 }
 
 OverloadedFacet load_of_facet(const Topology& topology, std::span<const Vec4> x, const TetStresses& stresses,
-                              const CohesiveLaw& law, Index facet) {
+                              const LawsOfTets& laws, Index facet) {
   const auto& [minus, plus] = topology.facet_tets[at(facet)];
   const Vec3 n = facet_normal(topology, x, facet);
   const Vec3 t = facet_traction(stresses.stress[at(minus)], stresses.stress[at(plus)], n);
-  return {facet, effective_traction(law, t, n), t};
+  return {facet, effective_traction(laws.of(minus), t, n), t};
 }
 
 }  // namespace
@@ -35,11 +35,12 @@ double effective_traction(const CohesiveLaw& law, const Vec3& t, const Vec3& nor
 
 std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::span<const Vec4> x,
                                                const TetStresses& stresses, std::span<const double> strength,
-                                               const CohesiveLaw& law) {
+                                               const LawsOfTets& laws) {
   const Index blocks = num_blocks(topology.num_facets(), facets_per_block);
   std::vector<std::vector<OverloadedFacet>> found(at(blocks));
   // The effective traction is at most |t| max(1, 1/beta), and |t| at most the mean of the two stresses' bounds.
-  const double bound_factor = 0.5 * std::max(1.0, 1.0 / law.beta);
+  double bound_factor = 0.5;
+  for (const CohesiveLaw& law : laws.laws) bound_factor = std::max(bound_factor, 0.5 / law.beta);
   const auto may_fail = [&](Index facet) {
     const auto& [minus, plus] = topology.facet_tets[at(facet)];
     const double bound = stresses.bound[at(minus)] + stresses.bound[at(plus)];
@@ -57,7 +58,7 @@ std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::sp
       for (const Index tet : topology.facet_tets[at(facets[at(std::min(i + prefetch_distance, count - 1))])])
         __builtin_prefetch(&stresses.stress[at(tet)]);
       const Index facet = facets[at(i)];
-      const OverloadedFacet load = load_of_facet(topology, x, stresses, law, facet);
+      const OverloadedFacet load = load_of_facet(topology, x, stresses, laws, facet);
       if (load.effective >= strength[at(facet)]) found[at(block)].push_back(load);
     }
   });
@@ -67,7 +68,7 @@ std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::sp
 }
 
 OverloadedFacet most_loaded_facet(const Topology& topology, std::span<const Vec4> x, const TetStresses& stresses,
-                                  std::span<const double> strength, const CohesiveLaw& law) {
+                                  std::span<const double> strength, const LawsOfTets& laws) {
   std::vector<OverloadedFacet> most(at(num_blocks(topology.num_facets(), facets_per_block)));
   const auto exceeds = [&](const OverloadedFacet& a, const OverloadedFacet& b) {
     return b.facet == none || a.effective * strength[at(b.facet)] > b.effective * strength[at(a.facet)];
@@ -76,7 +77,7 @@ OverloadedFacet most_loaded_facet(const Topology& topology, std::span<const Vec4
     const Index end = std::min(topology.num_facets(), (block + 1) * facets_per_block);
     for (Index facet = block * facets_per_block; facet < end; ++facet) {
       if (topology.facet_state[at(facet)] != FacetState::Bonded) continue;
-      const OverloadedFacet load = load_of_facet(topology, x, stresses, law, facet);
+      const OverloadedFacet load = load_of_facet(topology, x, stresses, laws, facet);
       if (exceeds(load, most[at(block)])) most[at(block)] = load;
     }
   });

@@ -104,6 +104,7 @@ Chunk make_chunk(CrackState& cracks, std::span<const Index> vertices) {
   for (std::size_t first = 0; first < sorted.size(); first += at(group_lanes)) {
     RecordGroup group;
     group.vertex.fill(none);
+    group.law = law_of_vertex(cracks, sorted[first]);
     group.first_nodes = to_index(chunk.nodes.size());
     group.first_slots = to_index(chunk.slots.size());
     group.num_slots = count(sorted[first]);
@@ -129,15 +130,24 @@ void append_chunk(RecordGroups& all, const Chunk& chunk) {
 
 }  // namespace
 
+std::vector<std::span<const Index>> parts_of_one_law(const CrackState& cracks, std::span<const Index> vertices,
+                                                     Index largest) {
+  std::vector<std::span<const Index>> parts;
+  while (!vertices.empty()) {
+    const Index law = law_of_vertex(cracks, vertices.front());
+    std::size_t count = std::min(vertices.size(), at(largest));
+    while (law_of_vertex(cracks, vertices[count - 1]) != law) --count;
+    parts.push_back(vertices.first(count));
+    vertices = vertices.subspan(count);
+  }
+  return parts;
+}
+
 void group_records(CrackState& cracks) {
   const std::vector<Index> awake = awake_vertices(cracks);
-  const Index count = to_index(awake.size());
-  std::vector<Chunk> chunks(at(num_blocks(count, vertices_per_chunk)));
-  parallel_blocks(to_index(chunks.size()), [&](Index c) {
-    const Index first = c * vertices_per_chunk;
-    const auto vertices = std::span(awake).subspan(at(first), at(std::min(vertices_per_chunk, count - first)));
-    chunks[at(c)] = make_chunk(cracks, vertices);
-  });
+  const auto parts = parts_of_one_law(cracks, awake, vertices_per_chunk);
+  std::vector<Chunk> chunks(parts.size());
+  parallel_blocks(to_index(chunks.size()), [&](Index c) { chunks[at(c)] = make_chunk(cracks, parts[at(c)]); });
   RecordGroups& all = cracks.groups;
   all.groups.clear();
   all.slots.clear();

@@ -1,7 +1,9 @@
 #pragma once
 // The vector kernels solve eight vertices at a time, one in each lane, record by record. So that lanes do not idle,
-// vertices near each other in memory are grouped by their number of records. A vertex's own result does not depend on
-// its group.
+// vertices near each other in memory are grouped by their number of records; all of a group have the same law. A
+// vertex's own result does not depend on its group.
+#include <span>
+
 #include "core/types.hpp"
 
 namespace knap {
@@ -21,6 +23,7 @@ struct RecordSlots {
 /// Eight vertices with about as many records each.
 struct RecordGroup {
   PerLane<Index> vertex{};  ///< none in lanes without one
+  Index law = 0;            ///< of all of them, see law_of_vertex
   Index first_slots = 0;    ///< in RecordGroups::slots
   Index num_slots = 0;      ///< largest number of records of one of the vertices
   Index first_nodes = 0;    ///< in RecordGroups::nodes
@@ -40,5 +43,9 @@ struct CrackState;
 /// Numbers the nodes of every vertex (CrackRecord::local_a, local_b) and forms the groups of the records that do not
 /// sleep. Between two steps: losses of this step that are not settled are lost where all records sleep.
 void group_records(CrackState& cracks);
+
+/// Vertices, those of one law together, cut where the law changes and into parts of at most so many.
+std::vector<std::span<const Index>> parts_of_one_law(const CrackState& cracks, std::span<const Index> vertices,
+                                                     Index largest);
 
 }  // namespace knap

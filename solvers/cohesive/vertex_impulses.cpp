@@ -15,8 +15,12 @@ constexpr Index groups_per_block = 16;
 // Virgin until K w (1/m_a + 1/m_b) dt^2 <= 1/3: about three records share a node, and the leapfrog limit is 4.
 constexpr double virgin_stiffness_factor = 3.0;
 
-ImpulseCoefficients coefficients(const VertexImpulseOptions& options) {
-  return {options.law, options.dt, options.sweeps, virgin_stiffness_factor * options.dt * options.dt};
+// By law.
+std::vector<ImpulseCoefficients> coefficients(const VertexImpulseOptions& options) {
+  std::vector<ImpulseCoefficients> all;
+  for (const CohesiveLaw& law : options.laws)
+    all.push_back({law, options.dt, options.sweeps, virgin_stiffness_factor * options.dt * options.dt});
+  return all;
 }
 
 ImpulseWorkspace& workspace() {
@@ -52,24 +56,25 @@ std::vector<Index> cracked_vertices(const CrackState& cracks, const Topology& to
 }  // namespace
 
 void apply_vertex_impulses(CrackState& cracks, NodalState& nodes, const VertexImpulseOptions& options) {
-  const ImpulseCoefficients k = coefficients(options);
+  const auto k = coefficients(options);
   const Index count = to_index(cracks.groups.groups.size());
   parallel_blocks(num_blocks(count, groups_per_block), [&](Index block) {
     const Index first = block * groups_per_block;
-    solve_groups(view(cracks, nodes), k, first, std::min(count, first + groups_per_block), workspace());
+    solve_groups(view(cracks, nodes), k.data(), first, std::min(count, first + groups_per_block), workspace());
   });
 }
 
 void settle_crack_losses(CrackState& cracks, const Topology& topology, const NodalState& nodes,
                          const std::vector<Index>& changed_nodes, const VertexImpulseOptions& options) {
-  const ImpulseCoefficients k = coefficients(options);
+  const auto k = coefficients(options);
   const auto changed = cracked_vertices(cracks, topology, changed_nodes);
   const ImpulseView now = view(cracks, const_cast<NodalState&>(nodes));  // booking only reads the nodes
+  const auto parts = parts_of_one_law(cracks, changed, group_lanes);
   parallel_for(
-      num_blocks(to_index(changed.size()), group_lanes),
+      to_index(parts.size()),
       [&](Index i) {
-        const auto rest = std::span(changed).subspan(at(i * group_lanes));
-        book_vertices(now, k, rest.first(std::min(rest.size(), at(group_lanes))), workspace());
+        const auto& part = parts[at(i)];
+        book_vertices(now, k[at(law_of_vertex(cracks, part.front()))], part, workspace());
       },
       groups_per_block);
   for (const Index vertex : cracks.vertices)
@@ -107,9 +112,10 @@ double stored_energy(const CrackState& cracks, const CrackRecord& record, const 
 CrackEnergies crack_energies(const CrackState& cracks, const NodalState& nodes, const VertexImpulseOptions& options) {
   return ordered_sum<CrackEnergies>(to_index(cracks.losses_of_vertex.size()), [&](Index vertex) {
     CrackEnergies sum{0.0, cracks.losses_of_vertex[at(vertex)]};
+    const CohesiveLaw& law = options.laws[at(law_of_vertex(cracks, vertex))];
     for (const CrackRecord& record : cracks.records_of_vertex(vertex))
       if (record.regime == RecordRegime::Softening && !record.is_closed_tip())
-        sum.stored += stored_energy(cracks, record, nodes, options.law, options.dt);
+        sum.stored += stored_energy(cracks, record, nodes, law, options.dt);
     return sum;
   });
 }

@@ -5,9 +5,9 @@
 namespace knap {
 
 struct VertexImpulseOptions {
-  CohesiveLaw law;
-  double dt = 0.0;  ///< time step [s]
-  int sweeps = 2;   ///< Gauss-Seidel sweeps over the records of a vertex
+  std::span<const CohesiveLaw> laws;  ///< by particle, see law_of_vertex
+  double dt = 0.0;                    ///< time step [s]
+  int sweeps = 2;                     ///< Gauss-Seidel sweeps over the records of a vertex
 };
 
 /// Cohesion, closure and friction of all crack records as impulses on the free velocities nodes.v (Moreau's non-smooth

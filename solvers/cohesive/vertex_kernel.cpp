@@ -377,13 +377,13 @@ HWY_INLINE void solve_lanes(const Lanes& l, const NextGroup& next) {
   store_step_losses(l.view, l.group.vertex.data() + l.lane0, spent);
 }
 
-void SolveGroups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
+void SolveGroups(const ImpulseView& view, const ImpulseCoefficients* k, Index first, Index last,
                  ImpulseWorkspace& workspace) {
   const std::vector<RecordGroup>& groups = view.groups->groups;
   for (Index g = first; g < last; ++g) {
     const RecordGroup* next = at(g) + 1 < groups.size() ? &groups[at(g) + 1] : nullptr;
     for (Index lane0 = 0; lane0 < group_lanes; lane0 += width)
-      solve_lanes({view, k, groups[at(g)], workspace, lane0}, {view, lane0 == 0 ? next : nullptr});
+      solve_lanes({view, k[groups[at(g)].law], groups[at(g)], workspace, lane0}, {view, lane0 == 0 ? next : nullptr});
   }
 }
 
@@ -466,7 +466,7 @@ namespace knap {
 HWY_EXPORT(SolveGroups);
 HWY_EXPORT(BookVertices);
 
-void solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
+void solve_groups(const ImpulseView& view, const ImpulseCoefficients* k, Index first, Index last,
                   ImpulseWorkspace& workspace) {
   const std::size_t slots = at(view.groups->max_slots), nodes = at(view.groups->max_nodes);
   if (workspace.rows.size() < slots) workspace.rows.resize(slots);

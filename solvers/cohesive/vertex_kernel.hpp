@@ -70,8 +70,8 @@ struct ImpulseWorkspace {
   Vec4 idle_node = Vec4::Zero();
 };
 
-/// Impulses of the vertices of the groups [first, last) on the free velocities; damage grows.
-void solve_groups(const ImpulseView& view, const ImpulseCoefficients& k, Index first, Index last,
+/// Impulses of the vertices of the groups [first, last) on the free velocities, with coefficients by law; damage grows.
+void solve_groups(const ImpulseView& view, const ImpulseCoefficients* k, Index first, Index last,
                   ImpulseWorkspace& workspace);
 /// Books anew what the impulses of up to eight vertices spend at the present velocities.
 void book_vertices(const ImpulseView& view, const ImpulseCoefficients& k, std::span<const Index> vertices,

@@ -22,6 +22,13 @@ ToolAction& ToolAction::operator+=(const ToolAction& other) {
   return *this;
 }
 
+void set_guided_speed(Tool& tool, double speed, double dt) {
+  tool.state.velocity = speed * tool.guide;
+  tool.next = {tool.state.position + dt * tool.state.velocity, tool.state.orientation};
+}
+
+double kinetic_energy(const Tool& tool) { return 0.5 * tool.mass * tool.state.velocity.squaredNorm(); }
+
 void book_action(Tool& tool, const ToolAction& action, double dt, std::int64_t step) {
   ToolState& state = tool.state;
   state.impulse += action.impulse;

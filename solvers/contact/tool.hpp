@@ -36,10 +36,13 @@ struct ToolState {
 struct Tool {
   std::string name;
   ToolShape shape = HalfSpace{};
-  double friction = 0.0;  ///< Coulomb, on the particle [-]
+  double friction = 0.0;       ///< Coulomb, on the particle [-]
+  double mass = 0.0;           ///< of a tool that the particle pushes back [kg]; 0 = its motion is prescribed
+  Vec3 guide = Vec3::UnitZ();  ///< unit; such a tool moves along it only, as on rails, and does not turn
   ToolState state;
   ToolPose next;  ///< at the end of the step
 
+  bool is_guided() const { return mass > 0.0; }
   /// Mean velocity, over the step that begins now, of the tool's matter at a point of the world [m/s].
   Vec3 velocity_at(const Vec3& point) const { return state.velocity + state.spin.cross(point - state.position); }
 };
@@ -65,6 +68,11 @@ struct ToolAction {
 
   ToolAction& operator+=(const ToolAction& other);
 };
+
+/// Of a guided tool: its speed along the guide for the step that begins [m/s].
+void set_guided_speed(Tool& tool, double speed, double dt);
+/// At the half step; 0 for a prescribed motion [J].
+double kinetic_energy(const Tool& tool);
 
 /// Adds what a step did to the tool's sums.
 void book_action(Tool& tool, const ToolAction& action, double dt, std::int64_t step);

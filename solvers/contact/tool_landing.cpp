@@ -26,6 +26,8 @@ struct ToolInStep {
 
   SurfaceDistance distance_after(const Vec3& point) const { return surface_distance(shape, end.local(point)); }
 
+  bool is_rigid(Index node) const { return at(node) < step.body_of_node.size() && step.body_of_node[at(node)] != none; }
+
   // A point whose step would end at `after`, seen from there; it may stay as deep as it was.
   NodeApproach approach(const Vec3& x, const Vec3& v, const Vec3& after, const SurfaceDistance& distance) const {
     const double before = surface_distance(shape, begin.local(x)).gap;
@@ -39,7 +41,7 @@ struct ToolInStep {
     const Vec3 x = xyz(nodes.x[at(node)]), v = xyz(nodes.v[at(node)]);
     const Vec3 after = x + step.dt * v;
     const SurfaceDistance distance = distance_after(after);
-    if (!(distance.gap < 0.0)) return std::nullopt;
+    if (!(distance.gap < 0.0) || is_rigid(node)) return std::nullopt;
     const NodeApproach a = approach(x, v, after, distance);
     if (!(a.stop > 0.0)) return std::nullopt;
     const double speed = a.sliding.norm();

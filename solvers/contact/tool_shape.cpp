@@ -23,6 +23,11 @@ ShapeBox cylinder_box(double radius, double low, double high) {
   return {Vec3(-radius, -radius, low), Vec3(radius, radius, high)};
 }
 
+std::vector<Vec3> cylinder_points(double radius, double low, double high) {
+  return {Vec3(0, 0, 0.5 * (low + high)), Vec3(0, 0, low), Vec3(0, 0, high), Vec3(radius, 0, low),
+          Vec3(radius, 0, high)};
+}
+
 }  // namespace
 
 SurfaceDistance surface_distance(const HalfSpace&, const Vec3& point) { return {point.z(), Vec3::UnitZ()}; }
@@ -41,6 +46,39 @@ SurfaceDistance surface_distance(const CylinderTool& shape, const Vec3& point) {
   return cylinder_distance(shape.radius, 0.5 * shape.length, point);
 }
 
+ShapeBox bounding_box(const SurfaceTool& shape) {
+  const Vec3 grown = Vec3::Constant(0.5 * shape.thickness);
+  const TreeBox& box = shape.surface.tree.front();
+  return {box.low - grown, box.high + grown};
+}
+
+std::vector<Vec3> points_inside(const HalfSpace&) { return {}; }
+
+std::vector<Vec3> points_inside(const DiscPlaten& shape) {
+  return cylinder_points(shape.radius, -shape.thickness, 0.0);
+}
+
+std::vector<Vec3> points_inside(const BallTool&) { return {Vec3::Zero()}; }
+
+std::vector<Vec3> points_inside(const CylinderTool& shape) {
+  return cylinder_points(shape.radius, -0.5 * shape.length, 0.5 * shape.length);
+}
+
+SurfaceDistance surface_distance(const SurfaceTool& shape, const Vec3& point) {
+  // Nearer than this to an edge or corner, over the size of the surface, the direction to it would be round-off.
+  constexpr double touching = 1e-10;
+  const TriangleSurface& surface = shape.surface;
+  const SurfacePoint near = closest_point(surface, point);
+  const Vec3 away = point - near.point;
+  const double side = near.normal.dot(away) < 0.0 ? -1.0 : 1.0;
+  const double outside = surface.closed ? side : 1.0;  // -1 = inside the solid
+  const double gap = outside * (near.on_face ? std::abs(near.normal.dot(away)) : near.distance) - 0.5 * shape.thickness;
+  if (near.on_face) return {gap, side * outside * near.normal};
+  const double size = (surface.tree.front().high - surface.tree.front().low).norm();
+  if (near.distance > touching * size) return {gap, outside / near.distance * away};
+  return {gap, near.normal.norm() > 0.0 ? near.normal.normalized() : Vec3(Vec3::UnitZ())};
+}
+
 ShapeBox bounding_box(const HalfSpace&) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   return {Vec3::Constant(-infinity), Vec3(infinity, infinity, 0.0)};
@@ -53,5 +91,7 @@ ShapeBox bounding_box(const BallTool& shape) { return {Vec3::Constant(-shape.rad
 ShapeBox bounding_box(const CylinderTool& shape) {
   return cylinder_box(shape.radius, -0.5 * shape.length, 0.5 * shape.length);
 }
+
+std::vector<Vec3> points_inside(const SurfaceTool& shape) { return shape.surface.vertices; }
 
 }  // namespace knap

@@ -3,7 +3,7 @@
 #include <limits>
 #include <variant>
 
-#include "core/types.hpp"
+#include "contact/triangle_surface.hpp"
 
 namespace knap {
 
@@ -27,7 +27,14 @@ struct CylinderTool {
   double length = 0.0;  ///< [m]
 };
 
-using ToolShape = std::variant<HalfSpace, DiscPlaten, BallTool, CylinderTool>;
+/// Triangles, of an STL file say. Closed: the solid inside. Open: a shell of that thickness about them, rounded at its
+/// rim, that stops the particle from both sides. A thickness given to a closed surface grows the solid by half of it.
+struct SurfaceTool {
+  TriangleSurface surface;
+  double thickness = 0.0;  ///< [m]
+};
+
+using ToolShape = std::variant<HalfSpace, DiscPlaten, BallTool, CylinderTool, SurfaceTool>;
 
 /// Distance of a point to the surface of a shape.
 struct SurfaceDistance {
@@ -40,6 +47,7 @@ SurfaceDistance surface_distance(const HalfSpace& shape, const Vec3& point);
 SurfaceDistance surface_distance(const DiscPlaten& shape, const Vec3& point);
 SurfaceDistance surface_distance(const BallTool& shape, const Vec3& point);
 SurfaceDistance surface_distance(const CylinderTool& shape, const Vec3& point);
+SurfaceDistance surface_distance(const SurfaceTool& shape, const Vec3& point);
 
 /// A box in the shape's frame around its solid [m]; infinite where the solid is.
 struct ShapeBox {
@@ -49,5 +57,13 @@ ShapeBox bounding_box(const HalfSpace& shape);
 ShapeBox bounding_box(const DiscPlaten& shape);
 ShapeBox bounding_box(const BallTool& shape);
 ShapeBox bounding_box(const CylinderTool& shape);
+ShapeBox bounding_box(const SurfaceTool& shape);
+
+/// A few points of the shape's solid, its corners and middle: a particle that holds the whole tool has them inside.
+std::vector<Vec3> points_inside(const HalfSpace& shape);
+std::vector<Vec3> points_inside(const DiscPlaten& shape);
+std::vector<Vec3> points_inside(const BallTool& shape);
+std::vector<Vec3> points_inside(const CylinderTool& shape);
+std::vector<Vec3> points_inside(const SurfaceTool& shape);
 
 }  // namespace knap

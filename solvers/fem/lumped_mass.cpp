@@ -5,9 +5,11 @@
 
 namespace knap {
 
-std::vector<double> corner_masses(const Topology& topology, std::span<const double> volumes, double density) {
+std::vector<double> corner_masses(const Topology& topology, std::span<const double> volumes,
+                                  std::span<const double> densities) {
   std::vector<double> masses(volumes.size());
-  std::transform(volumes.begin(), volumes.end(), masses.begin(), [&](double v) { return 0.25 * density * v; });
+  std::transform(volumes.begin(), volumes.end(), densities.begin(), masses.begin(),
+                 [](double v, double density) { return 0.25 * density * v; });
   double largest = 0.0;
   for (Index v = 0; v < topology.num_vertices(); ++v)
     largest = std::max(largest, corner_sum(topology.corners_of_vertex[v], masses));

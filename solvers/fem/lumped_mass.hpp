@@ -8,8 +8,12 @@
 
 namespace knap {
 
-/// Mass of one corner of each tet [kg]: density [kg/m3] x volume [m3] / 4, rounded as above.
-std::vector<double> corner_masses(const Topology& topology, std::span<const double> volumes, double density);
+/// Mass of one corner of each tet [kg]: density [kg/m3] x volume [m3] / 4, both by tet, rounded as above.
+std::vector<double> corner_masses(const Topology& topology, std::span<const double> volumes,
+                                  std::span<const double> densities);
+inline std::vector<double> corner_masses(const Topology& topology, std::span<const double> volumes, double density) {
+  return corner_masses(topology, volumes, std::vector<double>(volumes.size(), density));
+}
 
 /// Mass of every node [kg] from the corners it has.
 std::vector<double> lumped_masses(const Topology& topology, std::span<const double> corner_masses);

@@ -21,6 +21,8 @@ ToolPose moved(const Rotation& motion, const ToolPose& start, double time) {
   return {motion.centre + turn * (start.position - motion.centre), (turn * start.orientation).normalized()};
 }
 
+ToolPose moved(const Guided&, const ToolPose& start, double) { return start; }
+
 }  // namespace
 
 ToolPose pose_at(const ToolMotion& motion, const ToolPose& start, double time) {

@@ -119,8 +119,8 @@ class LoadPath {
   }
 
   bool book(LoadState state) {
-    const OverloadedFacet facet =
-        most_loaded_facet(body_.topology, state.x, solver_.stresses(state), criterion_.strength, criterion_.law);
+    const OverloadedFacet facet = most_loaded_facet(body_.topology, state.x, solver_.stresses(state),
+                                                    criterion_.strength, {std::span(&criterion_.law, 1), {}});
     LoadStep step{state.approach, solver_.force(state), 0.0, {}, solver_.iterations()};
     if (facet.facet != none) step.utilisation = facet.effective / criterion_.strength[at(facet.facet)];
     for (const PlatenContact& contact : state.contacts) step.contacts[contact.platen] += contact.is_closed ? 1 : 0;

@@ -1,10 +1,16 @@
 #pragma once
+#include <span>
+
 #include "core/tet_mesh.hpp"
 #include "simulation/simulation.hpp"
 
 namespace knap {
 
-/// A run at time 0, from a mesh placed where it starts. Throws InputError for a mesh that cannot be simulated.
-Simulation make_simulation(const SimulationOptions& options, const TetMesh& mesh);
+/// A run at time 0, from the mesh of each particle, placed where it starts. Throws InputError for a mesh that cannot be
+/// simulated.
+Simulation make_simulation(const SimulationOptions& options, std::span<const TetMesh> meshes);
+inline Simulation make_simulation(const SimulationOptions& options, const TetMesh& mesh) {
+  return make_simulation(options, std::span(&mesh, 1));
+}
 
 }  // namespace knap

@@ -1,5 +1,7 @@
 #pragma once
+#include <algorithm>
 #include <optional>
+#include <vector>
 
 #include "cohesive/linear_softening.hpp"
 #include "loading/tool_options.hpp"
@@ -14,6 +16,19 @@ struct FractureOptions {
   double weibull_modulus = 0.0;           ///< 0 = uniform strength
   double weibull_reference_volume = 0.0;  ///< [m3]
   std::uint64_t weibull_seed = 1;
+};
+
+/// One particle: its solid, how it breaks, how it starts; SI.
+struct ParticleOptions {
+  double young_modulus = 0.0;
+  double poisson_ratio = 0.0;
+  double density = 0.0;
+  double viscous_ratio = 0.0;    ///< of the viscoelastic branch [-]
+  double relaxation_time = 0.0;  ///< of that branch [s]
+  std::optional<FractureOptions> fracture{};
+  double friction = 0.1;         ///< Coulomb, on other particles: the smaller of both holds [-]
+  Vec3 velocity = Vec3::Zero();  ///< of the whole particle at the start [m/s]
+  Vec3 spin = Vec3::Zero();      ///< about its mass centre [rad/s]
 };
 
 /// When fragments are carried as rigid bodies, and when they become deformable again. Shares of energy are of the
@@ -31,24 +46,25 @@ struct RigidFragmentOptions {
   double load_share = 0.3;       ///< of the weakest facet's strength: a larger 0.9 F/d^2 wakes a body [-]
 };
 
-/// Everything a simulation is made from, beside the mesh; SI.
+/// Everything a simulation is made from, beside the meshes; SI.
 struct SimulationOptions {
-  double young_modulus = 0.0;
-  double poisson_ratio = 0.0;
-  double density = 0.0;
-  double viscous_ratio = 0.0;    ///< of the viscoelastic branch [-]
-  double relaxation_time = 0.0;  ///< of that branch [s]
-  std::optional<FractureOptions> fracture{};
+  std::vector<ParticleOptions> particles = std::vector<ParticleOptions>(1);  ///< one for each mesh
   std::vector<ToolOptions> tools{};
-  Vec3 velocity = Vec3::Zero();  ///< of the whole particle at the start [m/s]
-  Vec3 spin = Vec3::Zero();      ///< about its mass centre [rad/s]
-  double step_safety = 0.5;      ///< time step over the nodal stability bound
-  int insertion_interval = 4;    ///< steps between two checks of the insertion criterion
-  int label_interval = 48;       ///< steps between two looks for new fragments
-  int ledger_interval = 24;      ///< steps between two energy balances
-  int impulse_sweeps = 2;        ///< Gauss-Seidel sweeps of the vertex impulses
-  int contact_sweeps = 4;        ///< Gauss-Seidel sweeps of the general contact
+  Vec3 gravity = Vec3::Zero();  ///< [m/s2]
+  double step_safety = 0.5;     ///< time step over the nodal stability bound
+  int insertion_interval = 4;   ///< steps between two checks of the insertion criterion
+  int label_interval = 48;      ///< steps between two looks for new fragments
+  int ledger_interval = 24;     ///< steps between two energy balances
+  int impulse_sweeps = 2;       ///< Gauss-Seidel sweeps of the vertex impulses
+  int contact_sweeps = 4;       ///< Gauss-Seidel sweeps of the general contact
   RigidFragmentOptions rigid_fragments{};
+  double restitution = 0.0;  ///< between rigid fragments: speed of parting over speed of approach [-]
 };
+
+/// Whether any particle can break.
+inline bool can_break(const SimulationOptions& options) {
+  return std::any_of(options.particles.begin(), options.particles.end(),
+                     [](const ParticleOptions& particle) { return particle.fracture.has_value(); });
+}
 
 }  // namespace knap

@@ -78,6 +78,12 @@ constexpr auto fields(const BranchState*) {
                     Field{"pending", &BranchState::pending}, Field{"dissipated", &BranchState::dissipated}};
 }
 constexpr auto fields(const Clock*) { return std::tuple{Field{"dt", &Clock::dt}, Field{"step", &Clock::step}}; }
+constexpr auto fields(const GravityImpulse*) {
+  return std::tuple{Field{"linear", &GravityImpulse::linear}, Field{"angular", &GravityImpulse::angular}};
+}
+constexpr auto fields(const ForceWatch*) {
+  return std::tuple{Field{"impulse", &ForceWatch::impulse}, Field{"largest", &ForceWatch::largest}};
+}
 constexpr auto fields(const ToolState*) {
   return std::tuple{Field{"position", &ToolState::position},
                     Field{"orientation", &ToolState::orientation},
@@ -264,11 +270,14 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.plain("rigid.push", s.rigid.push);
   visit.plain("freezing.last_change", s.freezing.last_change);
   visit.plain("freezing.noted_damage", s.freezing.noted_damage);
+  visit.plain("freezing.lets_go", s.freezing.lets_go);
   visit_single(visit, "freezing", s.freezing);
   visit_single(visit, "branch", s.elastic.branch);
   visit_single(visit, "clock", s.clock);
   visit_single(visit, "totals", s.totals);
   visit_tools(visit, s.tools);
+  visit_single(visit, "gravity", s.totals.gravity);
+  visit_single(visit, "force_watch", s.totals.force_watch);
   visit_single(visit, "ledger", s.ledger);
   visit_single(visit, "last_good_ledger", s.last_good_ledger);
 }
@@ -281,16 +290,22 @@ std::string case_hash(const Simulation& s) {
   hash.add(s.reference.facet_strength);
   hash.add(s.reference.fracture_energy);
   const SimulationOptions& o = s.options;
-  const CohesiveLaw law = o.fracture ? o.fracture->law : CohesiveLaw{};
-  hash.add(std::vector{o.young_modulus, o.poisson_ratio, o.density, o.viscous_ratio, o.relaxation_time, o.step_safety,
-                       law.beta, law.kappa, law.internal_friction, law.sliding_friction,
-                       static_cast<double>(law.softening_friction), o.velocity.x(), o.velocity.y(), o.velocity.z(),
-                       o.spin.x(), o.spin.y(), o.spin.z()});
+  for (std::size_t p = 0; p < o.particles.size(); ++p) {
+    const ParticleOptions& particle = o.particles[p];
+    const CohesiveLaw& law = s.reference.laws[p];
+    hash.add(std::vector{particle.young_modulus, particle.poisson_ratio, particle.density, particle.viscous_ratio,
+                         particle.relaxation_time, particle.friction, law.beta, law.kappa, law.internal_friction,
+                         law.sliding_friction, static_cast<double>(law.softening_friction), particle.velocity.x(),
+                         particle.velocity.y(), particle.velocity.z(), particle.spin.x(), particle.spin.y(),
+                         particle.spin.z()});
+  }
+  hash.add(s.reference.particle_of_tet);
+  hash.add(std::vector{o.step_safety, o.gravity.x(), o.gravity.y(), o.gravity.z()});
   for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
   const RigidFragmentOptions& r = o.rigid_fragments;
   hash.add(std::vector{r.enabled ? 1.0 : 0.0, r.quiet_crossings, static_cast<double>(r.quiet_steps),
                        r.noticeable_damage, r.strain_share, r.vibration_share, r.loss_share, r.approach_share,
-                       r.load_share});
+                       r.load_share, o.restitution});
   hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
   return hash.hex();
 }

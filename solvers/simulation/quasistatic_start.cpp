@@ -14,6 +14,7 @@ constexpr double times_to_relax = 40.0;
 Vec3 constant_velocity(const ToolOptions& tool) {
   if (std::holds_alternative<AtRest>(tool.motion)) return Vec3::Zero();
   if (const auto* motion = std::get_if<ConstantVelocity>(&tool.motion)) return motion->velocity;
+  if (const auto* motion = std::get_if<Ramp>(&tool.motion)) return motion->velocity;  // it has risen long ago
   throw InputError(fmt::format("quasistatic: tool \"{}\" must be at rest or have a constant velocity", tool.name));
 }
 
@@ -37,8 +38,10 @@ Press press(const Simulation& s) {
   if (tools.size() != 2)
     throw InputError(
         fmt::format("quasistatic: the particle must lie between two tools; the case has {}", tools.size()));
-  if (!s.options.fracture) throw InputError("quasistatic: needs a material that can break (fracture.insertion)");
-  if (!s.options.velocity.isZero() || !s.options.spin.isZero())
+  if (s.options.particles.size() != 1) throw InputError("quasistatic: the case must have one particle");
+  const ParticleOptions& particle = s.options.particles.front();
+  if (!particle.fracture) throw InputError("quasistatic: needs a material that can break (fracture.insertion)");
+  if (!particle.velocity.isZero() || !particle.spin.isZero())
     throw InputError("quasistatic: the particle must be at rest at the start");
   Press press{{platen(tools[0]), platen(tools[1])}, 0.0};
   std::array<double, 2> speed{};
@@ -79,8 +82,12 @@ void balance_from_here(Simulation& s) {
 Onset start_at_onset(Simulation& s, const LoadPathOptions& options) {
   const Press press = knap::press(s);
   Onset onset = load_to_onset({s.topology, s.reference.vertices, s.elastic.materials.front()}, press.platens,
-                              {s.options.fracture->law, s.reference.facet_strength}, options);
-  for (std::size_t k = 0; k < 2; ++k) s.options.tools[k].position += onset.path[k];
+                              {s.reference.laws.front(), s.reference.facet_strength}, options);
+  for (std::size_t k = 0; k < 2; ++k) {
+    ToolOptions& tool = s.options.tools[k];
+    tool.position += onset.path[k];
+    if (const auto* motion = std::get_if<Ramp>(&tool.motion)) tool.motion = ConstantVelocity{Vec3(motion->velocity)};
+  }
   s.tools = make_tools(s.options.tools, s.clock.dt);
   s.nodes.x = onset.x;
   for (std::size_t i = 0; i < s.nodes.v.size(); ++i) s.nodes.v[i] = press.speed * onset.rate[i];

@@ -72,13 +72,22 @@ double critical_speed(const Material& material, double strength) {
   return std::pow(strength / (0.682 * std::pow(modulus, 0.4)), 5.0 / 6.0) / std::sqrt(material.density);
 }
 
-bool is_quiet(const Simulation& s, std::span<const Index> tets, double crossing_time) {
+double fragment_size(const Simulation& s, std::span<const Index> tets) {
+  return std::cbrt(6.0 * fragment_volume(s, tets) / std::numbers::pi);
+}
+
+double crossing_time(const Simulation& s, std::span<const Index> tets) {
+  const Material& material = material_of(s.elastic, tets[0]);
+  return fragment_size(s, tets) / p_wave_speed(material.small_strain(), material.density);
+}
+
+bool is_quiet(const Simulation& s, std::span<const Index> tets) {
   std::int64_t last = 0;
   for (const Index tet : tets) last = std::max(last, s.freezing.last_change[at(tet)]);
   const RigidFragmentOptions& options = s.options.rigid_fragments;
   const auto steps = s.clock.step - last;
   return steps >= options.quiet_steps &&
-         static_cast<double>(steps) * s.clock.dt >= options.quiet_crossings * crossing_time;
+         static_cast<double>(steps) * s.clock.dt >= options.quiet_crossings * crossing_time(s, tets);
 }
 
 std::vector<Index> nodes_of(const Topology& topology, std::span<const Index> tets) {
@@ -124,17 +133,15 @@ double kinetic_energy_of(const NodalState& state, std::span<const Index> nodes) 
 // Mass, motion and what it takes to break it.
 RigidBody rigid_body(const Simulation& s, std::span<const Index> tets, std::span<const Index> nodes) {
   RigidBody body = make_rigid_body(nodes, s.nodes);
-  const Material& material = material_of(s.elastic, tets[0]);
-  body.size = std::cbrt(6.0 * fragment_volume(s, tets) / std::numbers::pi);
+  body.size = fragment_size(s, tets);
   body.strength = weakest_facet(s, tets);
-  body.critical_speed = critical_speed(material, body.strength);
-  body.crossing_time = body.size / p_wave_speed(material.small_strain(), material.density);
+  body.critical_speed = critical_speed(material_of(s.elastic, tets[0]), body.strength);
+  body.crossing_time = crossing_time(s, tets);
   body.strain_energy = strain_energy(s, tets);
   return body;
 }
 
 bool may_freeze(const Simulation& s, const QuietFragment& fragment) {
-  if (fragment.body.can_break() && !is_quiet(s, fragment.tets, fragment.body.crossing_time)) return false;
   if (!fragment.body.can_break()) return true;
   const double modulus = young_modulus(material_of(s.elastic, fragment.tets[0]).small_strain());
   const double strength = fragment.body.strength;
@@ -144,21 +151,30 @@ bool may_freeze(const Simulation& s, const QuietFragment& fragment) {
          fragment.vibration <= options.vibration_share * limit;
 }
 
+// A particle that cannot break has vibrations that never end in cracks: it is computed as long as it moves.
+bool can_break(const Simulation& s, std::span<const Index> tets) {
+  return s.options.particles[at(s.reference.particle_of_tet[at(tets[0])])].fracture.has_value();
+}
+
 std::optional<QuietFragment> quiet_fragment(const Simulation& s, std::span<const Index> tets) {
-  if (s.rigid.of_tet(tets[0]) != none || !has_come_loose(s, tets)) return std::nullopt;
-  QuietFragment fragment{{tets.begin(), tets.end()}, nodes_of(s.topology, tets), {}, 0.0};
+  if (!can_break(s, tets)) return std::nullopt;
+  if (s.rigid.of_tet(tets[0]) != none) return std::nullopt;
+  const bool is_loose = has_come_loose(s, tets);
+  if (!(is_loose && weakest_facet(s, tets) == RigidBody::unbreakable) && !is_quiet(s, tets)) return std::nullopt;
+  QuietFragment fragment{{tets.begin(), tets.end()}, nodes_of(s.topology, tets), {}, 0.0, is_loose};
   if (!has_nodes_of_its_own(s, fragment.nodes, s.contact.fragment_of_tet[at(tets[0])])) return std::nullopt;
   fragment.body = rigid_body(s, tets, fragment.nodes);
   fragment.vibration = kinetic_energy_of(s.nodes, fragment.nodes) - kinetic_energy(fragment.body);
   if (!may_freeze(s, fragment)) return std::nullopt;
-  if (is_near_tool(s, fragment.nodes, fragment.body, clear_of_tools * s.reference.mean_edge)) return std::nullopt;
+  if (is_near_edged_tool(s, fragment.nodes, fragment.body, clear_of_tools * s.reference.mean_edge)) return std::nullopt;
   return fragment;
 }
 
 }  // namespace
 
-bool is_near_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance) {
+bool is_near_edged_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance) {
   for (const Tool& tool : s.tools) {
+    if (!std::holds_alternative<SurfaceTool>(tool.shape)) continue;
     if (proximity(tool, body.centre).gap > body.radius + distance) continue;
     for (const Index node : nodes)
       if (proximity(tool, xyz(s.nodes.x[at(node)])).gap <= distance) return true;

@@ -11,15 +11,17 @@ struct QuietFragment {
   std::vector<Index> nodes;  ///< ascending
   RigidBody body;            ///< as its nodes move
   double vibration = 0.0;    ///< kinetic energy beside the rigid motion [J]
+  bool is_loose = false;     ///< all its crack faces are in the hands of the general contact
 };
 
 /// Whether a node of the body is nearer to a tool than this distance [m].
-bool is_near_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance);
+bool is_near_edged_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance);
 
 /// Notes which tets have had a facet cracked or noticeably damaged since the last call; at every look for fragments.
 void note_changes(Simulation& s);
 
-/// The deformable fragments that meet all the conditions of RigidFragmentOptions, in the order of their labels.
+/// The deformable fragments that meet all the conditions of RigidFragmentOptions, in the order of their labels, those
+/// that are not loose yet included.
 std::vector<QuietFragment> quiet_fragments(const Simulation& s);
 
 }  // namespace knap

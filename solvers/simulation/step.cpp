@@ -21,7 +21,7 @@ constexpr double largest_step_safety = 0.9;
 constexpr double landing_tolerance_over_edge = 1e-6;
 
 VertexImpulseOptions impulse_options(const Simulation& s) {
-  return {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps};
+  return {s.reference.laws, s.clock.dt, s.options.impulse_sweeps};
 }
 
 bool looks_for_fragments(const Simulation& s) { return s.clock.step % s.options.label_interval == 0; }
@@ -52,16 +52,18 @@ void scale_masses(Simulation& s, std::span<const Index> split_vertices) {
       const Vec3 added = missing * xyz(s.nodes.v[at(node)]);
       s.totals.added_linear += added;
       s.totals.added_angular += Vec3(xyz(s.nodes.x[at(node)])).cross(added);
-      s.totals.mass_scaling_energy += 0.5 * missing * s.nodes.v[at(node)].squaredNorm();
+      s.totals.mass_scaling_energy += 0.5 * missing * s.nodes.v[at(node)].squaredNorm() +
+                                      missing * node_potential(s.options.gravity, s.nodes, node, -0.5 * s.clock.dt);
     }
 }
 
 void insert_new_cracks(Simulation& s) {
-  if (!s.options.fracture || s.clock.step % s.options.insertion_interval != 0) return;
+  if (!can_break(s.options) || s.clock.step % s.options.insertion_interval != 0) return;
   const PhaseTimer timer(s.phase_times, Phase::Insertion);
   update_stress(s.elastic, s.nodes.x);
-  const auto overloaded = overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound},
-                                            s.reference.facet_strength, s.options.fracture->law);
+  const auto overloaded =
+      overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound}, s.reference.facet_strength,
+                        {s.reference.laws, s.reference.particle_of_tet});
   if (overloaded.empty()) return;
   const auto change = insert_cracks(s.cracks, s.topology, s.nodes, overloaded,
                                     {.dt = s.clock.dt,
@@ -83,13 +85,14 @@ void update_bulk(Simulation& s) {
 void kick_nodes(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Motion);
   kick(s.nodes, s.clock.dt);
-  kick(s.rigid, Vec3::Zero(), s.clock.dt);
+  if (!s.options.gravity.isZero(0.0)) s.totals.gravity += add_gravity(s.nodes, s.options.gravity, s.clock.dt);
+  kick(s.rigid, s.options.gravity, s.clock.dt);
 }
 
 void drift_nodes(Simulation& s) {
   {
     const PhaseTimer timer(s.phase_times, Phase::Motion);
-    drift(s.nodes, s.clock.dt);
+    drift(s.nodes, s.clock.dt, s.rigid.body_of_node);
     move_tools(s.tools);
   }
   if (s.rigid.bodies.empty()) return;
@@ -98,11 +101,13 @@ void drift_nodes(Simulation& s) {
   place_nodes(s.rigid, s.nodes);
 }
 
+ContactScene scene(const Simulation& s) { return {s.topology, s.nodes.x, s.rigid, s.tools, s.clock.dt}; }
+
 // Before their contacts are solved, so that these act on what can deform.
 void wake_bodies(Simulation& s) {
   if (s.rigid.bodies.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
-  if (wake_loaded_bodies(s)) refresh_contacts(s.contact, s.topology, s.nodes.x, s.rigid);
+  if (wake_loaded_bodies(s)) refresh_contacts(s.contact, scene(s));
   clear_contact_reports(s.rigid);
 }
 
@@ -139,20 +144,20 @@ bool look_for_new_fragments(Simulation& s) {
   s.contact.fragments = num_fragments(labels);
   s.contact.fragment_of_tet = std::move(labels);
   const Index handed_over = hand_over_faces(s.cracks, s.topology, s.nodes.x, s.contact.fragment_of_tet,
-                                            {.facet_size = s.reference.facet_size});
+                                            {.lets_go = s.freezing.lets_go, .facet_size = s.reference.facet_size});
   if (!changed && handed_over == 0) return false;
   rebuild_contact_candidates(s);
   return true;
 }
 
 void detect_contacts(Simulation& s) {
-  if (!s.options.fracture || s.totals.inserted_facets == 0) return;
+  if (s.options.particles.size() == 1 && s.totals.inserted_facets == 0) return;  // in one piece
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
   const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
   // The way of the last drift.
   if (!rebuilt && advance_travel(s.contact, s.nodes.v, s.clock.dt)) rebuild_contact_candidates(s);
-  refresh_contacts(s.contact, s.topology, s.nodes.x, s.rigid);
+  refresh_contacts(s.contact, scene(s));
 }
 
 void apply_crack_impulses(Simulation& s) {
@@ -164,8 +169,11 @@ void apply_crack_impulses(Simulation& s) {
 void apply_fragment_contacts(Simulation& s) {
   if (s.contact.contacts.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactImpulses);
-  apply_contact_impulses(s.contact, s.nodes, s.rigid,
-                         {.friction = s.options.fracture->law.sliding_friction, .sweeps = s.options.contact_sweeps});
+  apply_contact_impulses(
+      s.contact, {s.nodes, s.rigid, s.tools, s.clock.dt},
+      {.pairs = {s.reference.pair_friction, s.reference.particle_of_tet, to_index(s.options.particles.size())},
+       .restitution = s.options.restitution,
+       .sweeps = s.options.contact_sweeps});
   for (const Contact& contact : s.contact.contacts)
     if (contact.impulse.squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
 }
@@ -174,9 +182,13 @@ void apply_tool_impulses(Simulation& s) {
   s.nodes_on_tools.clear();
   if (s.tools.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::Tools);
-  s.nodes_on_tools = apply_tools(
-      s.tools, s.nodes,
-      {.dt = s.clock.dt, .step = s.clock.step, .tolerance = landing_tolerance_over_edge * s.reference.mean_edge});
+  const ToolStep in_step{.dt = s.clock.dt,
+                         .step = s.clock.step,
+                         .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
+                         .body_of_node = s.rigid.body_of_node};
+  if (looks_for_fragments(s) || s.tool_edges.tets.empty()) watch_free_faces(s.tool_edges, s.topology);
+  auto touches = find_edge_touches(s.tool_edges, s.tools, s.topology, s.nodes, in_step);
+  s.nodes_on_tools = apply_tools(s.tools, s.nodes, in_step, touches, tool_deeds(s.contact, s.rigid, s.tools));
 }
 
 void book_losses(Simulation& s) {
@@ -186,19 +198,22 @@ void book_losses(Simulation& s) {
   std::vector<Index> changed = s.nodes_on_tools;
   for (const Contact& contact : s.contact.contacts)
     for (const ContactSide& side : contact.sides)
-      if (side.body == none) changed.insert(changed.end(), side.nodes.begin(), side.nodes.end());
+      if (side.is_deformable()) changed.insert(changed.end(), side.nodes.begin(), side.nodes.end());
   settle_crack_losses(s.cracks, s.topology, s.nodes, std::move(changed), impulse_options(s));
   if (looks_for_fragments(s)) tidy_faces(s.cracks);
 }
 
 void balance_tools(Simulation& s) {
   EnergyLedger& ledger = s.ledger;
-  ledger[EnergyTerm::ToolFriction] = ledger[EnergyTerm::ToolImpact] = ledger[EnergyTerm::ToolWork] = 0.0;
+  ledger[EnergyTerm::ToolFriction] = ledger[EnergyTerm::ToolImpact] = 0.0;
+  ledger[EnergyTerm::ToolWork] = ledger[EnergyTerm::ToolKinetic] = 0.0;
   for (const Tool& tool : s.tools) {
     ledger[EnergyTerm::ToolFriction] += tool.state.friction_loss;
     ledger[EnergyTerm::ToolImpact] += tool.state.impact_loss;
-    ledger[EnergyTerm::ToolWork] -= tool.state.work;
+    if (!tool.is_guided()) ledger[EnergyTerm::ToolWork] -= tool.state.work;
+    ledger[EnergyTerm::ToolKinetic] += kinetic_energy(tool);
   }
+  ledger[EnergyTerm::Gravity] = gravity_potential(s, 0.5 * s.clock.dt) - s.reference.start_potential;
 }
 
 StepStatus check_energies(Simulation& s) {
@@ -212,13 +227,22 @@ StepStatus check_energies(Simulation& s) {
 
 }  // namespace
 
+double gravity_potential(const Simulation& s, double ahead) {
+  const Vec3& gravity = s.options.gravity;
+  if (gravity.isZero(0.0)) return 0.0;
+  double potential = gravity_potential(s.nodes, gravity, ahead);
+  for (const Tool& tool : s.tools)
+    potential -= tool.mass * gravity.dot(tool.state.position + ahead * tool.state.velocity);
+  return potential;
+}
+
 void update_ledger(Simulation& s) {
   EnergyLedger& ledger = s.ledger;
   ledger[EnergyTerm::Kinetic] = kinetic_energy(s.nodes);
   const BulkState bulk = bulk_state(s.elastic, s.nodes.x);
   s.totals.smallest_volume_ratio = std::min(s.totals.smallest_volume_ratio, bulk.smallest_volume_ratio);
   ledger[EnergyTerm::Strain] = bulk.strain_energy - half_step_work(s.nodes, s.clock.dt) + frozen_strain_energy(s.rigid);
-  if (s.options.fracture) {
+  if (can_break(s.options)) {
     const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
     ledger[EnergyTerm::CohesiveStored] = cracks.stored;
     ledger[EnergyTerm::CohesiveDissipated] = cracks.losses.cohesive;
@@ -230,6 +254,8 @@ void update_ledger(Simulation& s) {
   ledger[EnergyTerm::Viscous] = s.elastic.branch.dissipated;
   ledger[EnergyTerm::RigidVibration] = s.freezing.vibration;
   ledger[EnergyTerm::MassScaling] = 0.0 - s.totals.mass_scaling_energy;
+  const double supplied = std::max(0.0, -ledger[EnergyTerm::ToolWork]) + std::max(0.0, -ledger[EnergyTerm::Gravity]);
+  ledger.reference = std::max(ledger.reference, s.reference.incident_energy + supplied);
 }
 
 void balance_energies(Simulation& s) {
@@ -241,7 +267,7 @@ void balance_energies(Simulation& s) {
 }
 
 StepStatus step(Simulation& s) {
-  aim_tools(s.tools, s.options.tools, s.clock.time(), s.clock.dt);
+  aim_tools(s.tools, s.options.tools, s.options.gravity, s.clock.time(), s.clock.dt);
   insert_new_cracks(s);
   update_faces(s);
   detect_contacts(s);

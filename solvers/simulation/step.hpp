@@ -13,6 +13,9 @@ inline constexpr double energy_warning = 0.01;
 /// One step of the clock: forces and impulses at the positions of the whole step, then new velocities and positions.
 StepStatus step(Simulation& s);
 
+/// Of gravity on particle and guided tools, `ahead` [s] after the positions [J].
+double gravity_potential(const Simulation& s, double ahead);
+
 /// Brings the terms of the ledger up to date; the velocities must be those of the half step after nodes.x, with nodes.f
 /// of nodes.x.
 void update_ledger(Simulation& s);

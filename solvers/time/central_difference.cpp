@@ -11,8 +11,10 @@ void kick(NodalState& nodes, double dt) {
   });
 }
 
-void drift(NodalState& nodes, double dt) {
-  parallel_for(nodes.size(), [&](Index i) { nodes.x[at(i)] += dt * nodes.v[at(i)]; });
+void drift(NodalState& nodes, double dt, std::span<const Index> body_of_node) {
+  parallel_for(nodes.size(), [&](Index i) {
+    if (at(i) >= body_of_node.size() || body_of_node[at(i)] == none) nodes.x[at(i)] += dt * nodes.v[at(i)];
+  });
 }
 
 double kinetic_energy(const NodalState& nodes) {

@@ -1,5 +1,7 @@
 #pragma once
 // Leapfrog (Stoermer-Verlet): positions at whole steps, velocities at half steps.
+#include <span>
+
 #include "core/nodal_state.hpp"
 
 namespace knap {
@@ -7,8 +9,9 @@ namespace knap {
 /// Keeps the velocities as nodes.v_before and adds dt f/m to nodes.v: the free velocity, before any impulse.
 void kick(NodalState& nodes, double dt);
 
-/// Moves the nodes by dt v.
-void drift(NodalState& nodes, double dt);
+/// Moves the nodes by dt v, but for those of rigid bodies (body by node, none = of no body; so are nodes beyond the
+/// end).
+void drift(NodalState& nodes, double dt, std::span<const Index> body_of_node = {});
 
 /// Kinetic energy at the half step [J].
 double kinetic_energy(const NodalState& nodes);

@@ -24,10 +24,18 @@ struct Motion {
   Vec3 angular_momentum = Vec3::Zero();  ///< about the centre [kg m2/s]
 };
 
+Index particle_of(const FragmentInput& in, std::span<const Index> tets) {
+  return in.particle_of_tet.empty() ? 0 : in.particle_of_tet[at(tets.front())];
+}
+double density_of(const FragmentInput& in, std::span<const Index> tets) {
+  return in.densities[at(particle_of(in, tets))];
+}
+
 Motion find_motion(const FragmentInput& in, std::span<const Index> tets) {
+  const double density = density_of(in, tets);
   Motion motion;
   for (const Index tet : tets) {
-    const double mass = in.density * in.tet_volume[at(tet)];
+    const double mass = density * in.tet_volume[at(tet)];
     motion.mass += mass;
     for (const Index node : in.tet_nodes[at(tet)]) {
       motion.centre += 0.25 * mass * xyz(in.x[at(node)]);
@@ -37,7 +45,7 @@ Motion find_motion(const FragmentInput& in, std::span<const Index> tets) {
   motion.centre /= motion.mass;
   motion.velocity /= motion.mass;
   for (const Index tet : tets) {
-    const double mass = 0.25 * in.density * in.tet_volume[at(tet)];
+    const double mass = 0.25 * density * in.tet_volume[at(tet)];
     for (const Index node : in.tet_nodes[at(tet)]) {
       const Vec3 arm = xyz(in.x[at(node)]) - motion.centre;
       const Vec3 relative = xyz(in.v[at(node)]) - motion.velocity;
@@ -64,6 +72,7 @@ Vec3 find_spin(const Motion& motion) {
 /// Second moment of mass [kg m2] of the solid tets about `centre`: unlike that of the lumped masses it is a property of
 /// the shape alone, not of how it is meshed.
 Mat3 solid_moment(const FragmentInput& in, std::span<const Index> tets, const Vec3& centre) {
+  const double density = density_of(in, tets);
   Mat3 moment = Mat3::Zero();
   for (const Index tet : tets) {
     Mat3 squares = Mat3::Zero();
@@ -73,7 +82,7 @@ Mat3 solid_moment(const FragmentInput& in, std::span<const Index> tets, const Ve
       squares += arm * arm.transpose();
       sum += arm;
     }
-    moment += in.density * in.tet_volume[at(tet)] / 20.0 * (squares + sum * sum.transpose());
+    moment += density * in.tet_volume[at(tet)] / 20.0 * (squares + sum * sum.transpose());
   }
   return moment;
 }
@@ -134,9 +143,10 @@ Fragment make_fragment(const FragmentInput& in, Index id, std::span<const Index>
   const Motion motion = find_motion(in, tets);
   Fragment fragment;
   fragment.id = id;
+  fragment.particle = particle_of(in, tets);
   fragment.num_tets = to_index(tets.size());
   fragment.mass = motion.mass;
-  fragment.volume = motion.mass / in.density;
+  fragment.volume = motion.mass / density_of(in, tets);
   fragment.centre = motion.centre;
   fragment.velocity = motion.velocity;
   fragment.spin = find_spin(motion);
@@ -183,7 +193,7 @@ std::vector<Index> labels_by_size(std::span<const Index> label, std::span<const 
 }
 
 std::vector<Fragment> find_fragments(const FragmentInput& input) {
-  assert(input.density > 0.0 && input.tet_nodes.size() == input.label.size());
+  assert(!input.densities.empty() && input.tet_nodes.size() == input.label.size());
   if (input.label.empty()) return {};
   const std::vector<Index> label = labels_by_size(input.label, input.tet_volume);
   const Index count = *std::max_element(label.begin(), label.end()) + 1;

@@ -13,7 +13,8 @@ inline constexpr Index min_resolved_tets = 10;
 /// A connected piece of the particle. Motion is that of the lumped masses (a tet's mass in equal parts at its corners);
 /// shape is that of the current positions. docs/breakage_measures.md defines every number.
 struct Fragment {
-  Index id = none;  ///< rank by mass: 0 is the largest
+  Index id = none;     ///< rank by mass: 0 is the largest
+  Index particle = 0;  ///< that it was part of
   Index num_tets = 0;
   double mass = 0.0;             ///< [kg]
   double volume = 0.0;           ///< of the undeformed tets [m3]
@@ -36,11 +37,12 @@ struct FragmentInput {
   std::span<const TetCorners> tet_nodes;
   std::span<const TetCorners> tet_facets;
   std::span<const std::array<Index, 2>> facet_tets;
-  std::span<const Vec4> x;             ///< of the nodes [m]
-  std::span<const Vec4> v;             ///< of the nodes [m/s]
-  std::span<const double> tet_volume;  ///< reference [m3]
-  double density = 0.0;                ///< reference [kg/m3]
-  std::span<const Index> label;        ///< of the tets, any ids from 0 on
+  std::span<const Vec4> x;                   ///< of the nodes [m]
+  std::span<const Vec4> v;                   ///< of the nodes [m/s]
+  std::span<const double> tet_volume;        ///< reference [m3]
+  std::span<const double> densities;         ///< reference, by particle [kg/m3]
+  std::span<const Index> label;              ///< of the tets, any ids from 0 on
+  std::span<const Index> particle_of_tet{};  ///< empty = all of the first one
 };
 
 /// The labels renamed by descending volume (0 = the largest, ties by the lowest tet), without gaps: the ids of

@@ -69,7 +69,9 @@ void add_particle(Lines& lines, const SanityCard& card) {
   lines.add("Young's modulus", with_prefix(in.young_modulus, "Pa"),
             fmt::format("Poisson's ratio {:g}", in.poisson_ratio));
   lines.add("normal speed", with_prefix(card.normal_speed, "m/s"),
-            fmt::format("of {:.4g} m/s at {:.3g} deg from the wall", in.speed, in.angle * 180.0 / EIGEN_PI));
+            in.press_time > 0.0
+                ? fmt::format("of a tool that presses for {} at most", with_prefix(in.press_time, "s"))
+                : fmt::format("of {:.4g} m/s at {:.3g} deg from the wall", in.speed, in.angle * 180.0 / EIGEN_PI));
 }
 
 void add_fracture(Lines& lines, const SanityCard& card) {
@@ -90,7 +92,9 @@ void add_fracture(Lines& lines, const SanityCard& card) {
 void add_contact(Lines& lines, const SanityCard& card) {
   if (card.normal_speed <= 0.0) return;
   lines.add("contact radius", card.contact_radius);
-  lines.add("peak force", with_prefix(card.peak_force, "N"), "Hertz, unbroken");
+  const bool is_pressed = card.input.press_time > 0.0 && card.fracture;
+  lines.add("peak force", with_prefix(card.peak_force, "N"),
+            is_pressed ? "expected at fracture, or Hertz of the impact" : "Hertz, unbroken");
   lines.add("contact time", with_prefix(card.contact_time, "s"), "Hertz, unbroken");
 }
 
@@ -154,11 +158,14 @@ SanityCard sanity_card(const SanityInput& input) {
                            .density = input.density,
                            .diameter = input.diameter,
                            .speed = card.normal_speed};
-  card.contact_time = contact_time(impact);
-  card.peak_force = peak_force(impact);
-  card.contact_radius = {
-      .length = contact_radius(impact), .element_size = input.contact_element_size, .wanted = 3.0, .least = 1.0};
   if (input.fracture) card.fracture = fracture_card(input, *input.fracture, impact);
+  card.contact_time = contact_time(impact);
+  // What goes on pressing loads the particle until it breaks, as an impact at the critical speed does.
+  HertzImpact heaviest = impact;
+  if (input.press_time > 0.0 && card.fracture) heaviest.speed = std::max(impact.speed, card.fracture->critical_speed);
+  card.peak_force = peak_force(heaviest);
+  card.contact_radius = {
+      .length = contact_radius(heaviest), .element_size = input.contact_element_size, .wanted = 3.0, .least = 1.0};
 
   card.end_time = input.end_time.value_or(std::max(crossings_to_watch * card.crossing_time,
                                                    card.contact_time + crossings_after_contact * card.crossing_time));

@@ -28,8 +28,9 @@ struct SanityInput {
   std::optional<FractureScale> fracture{};  ///< absent: an elastic run
   double diameter = 0.0;                    ///< of the sphere of equal volume [m]
   double volume = 0.0;                      ///< of the particle [m3]
-  double speed = 0.0;                       ///< [m/s]
+  double speed = 0.0;                       ///< at which the particle and a wall, tool or other particle meet [m/s]
   double angle = 0.0;                       ///< from the wall plane [rad]; pi/2 = normal
+  double press_time = 0.0;                  ///< a tool goes on pressing for that long at the latest [s]; 0 = an impact
   double contact_element_size = 0.0;        ///< mean edge at the contact [m]
   double element_size = 0.0;                ///< mean edge far from it [m]
   Index num_tets = 0;

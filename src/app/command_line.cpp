@@ -54,16 +54,32 @@ CLI::App* add_modes(CLI::App& app, ModesArguments& modes) {
   return command;
 }
 
+CLI::App* add_strength(CLI::App& app, StrengthArguments& strength) {
+  CLI::App* command = app.add_subcommand("strength", "Press a particle for many seeds: Weibull statistics of strength");
+  add_case(command, strength.case_file, strength.overrides);
+  command->add_option("--seeds", strength.seeds, "Number of runs, with run.seed = 1, 2, ...")
+      ->type_name("N")
+      ->check(CLI::Range(2, 9999));
+  command->add_option("--out", strength.out, "Folder of the results; default: out/<name of the case>_strength")
+      ->type_name("DIR");
+  command->add_option("--threads", strength.threads, "Number of threads; results do not depend on it")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1024));
+  return command;
+}
+
 int run_parsed(int argc, char** argv) {
   CLI::App app{"Knap breaks a granule: fracture of a single particle on impact", "knap"};
   app.set_version_flag("--version", std::string("knap ") + version);
   app.require_subcommand(1);
   RunArguments run;
+  StrengthArguments strength;
   CheckArguments check;
   MeshArguments mesh;
   ModesArguments modes;
   bool markdown = false;
   const CLI::App* run_app = add_run(app, run);
+  const CLI::App* strength_app = add_strength(app, strength);
   CLI::App* check_app = app.add_subcommand("check", "Validate a case and print its sanity card");
   add_case(check_app, check.case_file, check.overrides);
   CLI::App* mesh_app = app.add_subcommand("mesh", "Mesh the particle of a case and report the quality");
@@ -78,6 +94,7 @@ int run_parsed(int argc, char** argv) {
     return app.exit(error) == 0 ? code(ExitCode::Ok) : code(ExitCode::BadInput);
   }
   if (*run_app) return code(run_command(run));
+  if (*strength_app) return code(strength_command(strength));
   if (*check_app) return code(check_command(check));
   if (*mesh_app) return code(mesh_command(mesh));
   if (*modes_app) return code(modes_command(modes));

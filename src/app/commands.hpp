@@ -45,6 +45,17 @@ struct ModesArguments {
 /// Finds the lowest free vibrations of the particle: frequencies to the terminal and modes.csv, shapes to modes.vtu.
 ExitCode modes_command(const ModesArguments& arguments);
 
+struct StrengthArguments {
+  std::filesystem::path case_file;
+  std::vector<std::string> overrides;
+  std::filesystem::path out;  ///< "" = out/<case name>_strength
+  std::optional<int> threads;
+  int seeds = 10;
+};
+/// Presses a particle of a case once for each of the seeds 1 to n and fits a Weibull distribution to the strengths.
+/// What has been run already is not run again.
+ExitCode strength_command(const StrengthArguments& arguments);
+
 /// Prints every key of a case file.
 ExitCode keys_command(bool markdown);
 

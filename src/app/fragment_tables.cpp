@@ -16,6 +16,7 @@ std::vector<Index> strict_ids(const RunOutcome& outcome) {
 std::vector<std::string> column_names() {
   return {"id",
           "strict_id",
+          "particle",
           "mass [kg]",
           "volume [m3]",
           "tets",
@@ -49,6 +50,7 @@ void write_fragments(const std::filesystem::path& path, const RunOutcome& outcom
     const std::int64_t resolved = f.resolved() ? 1 : 0;
     table.add_row({std::int64_t{f.id},
                    std::int64_t{strict[at(f.id)]},
+                   std::int64_t{f.particle},
                    f.mass,
                    f.volume,
                    std::int64_t{f.num_tets},

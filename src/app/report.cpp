@@ -15,13 +15,14 @@ using Json = nlohmann::ordered_json;
 Json vector(const Vec3& a) { return {a.x(), a.y(), a.z()}; }
 
 Json energy(const Simulation& s) {
-  const double incident = s.reference.incident_energy;
-  Json json{{"incident", incident},
+  const double reference = s.ledger.reference;
+  Json json{{"incident", s.reference.incident_energy},
+            {"reference", reference},
             {"closure_error", s.ledger.max_closure_error},
             {"closure_error_at_end", s.ledger.closure_error()}};
   for (std::size_t i = 0; i < num_energy_terms; ++i) {
     const auto term = static_cast<EnergyTerm>(i);
-    json[name(term)] = s.ledger[term] / incident;
+    json[name(term)] = s.ledger[term] / reference;
   }
   return json;
 }
@@ -70,6 +71,17 @@ Json sanity(const SanityCard& card) {
   return json;
 }
 
+Json particles(const RunOutcome& outcome) {
+  Json list = Json::array();
+  for (const ParticleOutcome& particle : outcome.particles)
+    list.push_back({{"name", particle.name},
+                    {"mass", particle.mass},
+                    {"largest_fragment_velocity", vector(particle.velocity)},
+                    {"fragments", fragments(particle.measures)},
+                    {"breakage", breakage(particle.measures)}});
+  return list;
+}
+
 Json rebound(const RunOutcome& outcome) {
   const Fragment& largest = outcome.strict.fragments.front();
   return {{"restitution_normal", outcome.rebound.normal},
@@ -87,15 +99,31 @@ Json cracks(const Simulation& s, const CrackCensus& census) {
           {"inserted_facets", s.totals.inserted_facets}};
 }
 
-Json wall(const Simulation& s) {
+Json tools(const Simulation& s) {
   const auto time_of = [&](std::int64_t step) {
     return step < 0 ? Json(nullptr) : Json(s.clock.dt * static_cast<double>(step));
   };
-  const ToolState tool = s.tools.empty() ? ToolState{} : s.tools.front().state;
-  return {{"max_force", tool.max_force},
-          {"impulse", vector(tool.impulse)},
-          {"first_contact", time_of(tool.first_step)},
-          {"last_contact", time_of(tool.last_step)}};
+  Json list = Json::array();
+  for (std::size_t k = 0; k < s.tools.size(); ++k) {
+    const ToolState& state = s.tools[k].state;
+    list.push_back({{"name", s.tools[k].name},
+                    {"max_force", state.max_force},
+                    {"impulse", vector(state.impulse)},
+                    {"moment", vector(state.moment)},
+                    {"work", state.work},
+                    {"friction_loss", state.friction_loss},
+                    {"impact_loss", state.impact_loss},
+                    {"first_contact", time_of(state.first_step)},
+                    {"last_contact", time_of(state.last_step)},
+                    {"displacement", vector(state.position - s.options.tools[k].position)},
+                    {"velocity", vector(state.velocity)}});
+  }
+  return list;
+}
+
+Json compression(const Compression& c) {
+  return {{"tool", c.tool},          {"fracture_force", c.fracture.force}, {"displacement", c.fracture.displacement},
+          {"time", c.fracture.time}, {"strength", c.fracture.strength},    {"has_dropped", c.fracture.has_dropped}};
 }
 
 Json performance(const Simulation& s, const Session& session) {
@@ -114,18 +142,21 @@ Json units() {
   return {{"time", "s"},
           {"mesh.edge_mean", "m"},
           {"mesh.smallest_volume_ratio", "-, of the most compressed tet at any energy balance; <= 0 = inverted"},
-          {"energy.incident", "J"},
-          {"energy, terms and errors",
-           "of the incident kinetic energy, at the end; closure_error is the largest of the run"},
+          {"energy.incident, energy.reference", "J; kinetic at the start; the same and what tools have put in"},
+          {"energy, terms and errors", "of the reference, at the end; closure_error is the largest of the run"},
           {"momentum.linear_error", "of m v"},
           {"momentum.angular_error", "of the larger of m v R and the initial angular momentum"},
           {"fragments, breakage", "mass over the particle's mass; fragments by the strict label, breakage by damage"},
+          {"particles", "kg, m/s; fragments and breakage by the damage label, over each one's own mass and size"},
           {"rebound.restitution_*", "velocity of the mass centre over its incident part"},
           {"rebound.spin", "rad/s, of the largest fragment"},
           {"rebound.largest_fragment_velocity", "m/s"},
           {"cracks.*area*", "m2"},
-          {"wall.max_force", "N"},
-          {"wall.impulse", "N s"},
+          {"tools.*.max_force", "N, of the normal forces of one step"},
+          {"tools.*.impulse, moment", "N s, N m s, on the particle; the moment about the tool's position"},
+          {"tools.*.work, *_loss", "J, done on the particle"},
+          {"tools.*.displacement, velocity", "m since the start, m/s, of the tool"},
+          {"compression", "N, m, s; strength = 0.9 F/d^2 in Pa; force smoothed, largest before it dropped"},
           {"sanity", "SI: m, s, m/s, N"},
           {"performance", "s of wall-clock time, of this session"}};
 }
@@ -149,9 +180,11 @@ void write_report(const std::filesystem::path& path, const Simulation& s, const 
   report["fragments"]["label"] = "strict";
   report["fragments"]["by_damage_label"] = fragments(outcome.damage.measures);
   report["breakage"] = breakage(outcome.damage.measures);
+  if (outcome.particles.size() > 1) report["particles"] = particles(outcome);
   report["rebound"] = rebound(outcome);
   report["cracks"] = cracks(s, outcome.cracks);
-  report["wall"] = wall(s);
+  report["tools"] = tools(s);
+  if (outcome.compression) report["compression"] = compression(*outcome.compression);
   report["mass_scaling"] = {{"added_mass_fraction", s.totals.added_mass / s.reference.start.mass}};
   report["sanity"] = sanity(outcome.card);
   report["performance"] = performance(s, outcome.session);

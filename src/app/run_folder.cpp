@@ -40,11 +40,13 @@ void remove_frames(const fs::path& folder, std::string_view stem) {
 
 // All but effective.toml, by which a folder is known as a run's: the new one replaces it.
 void remove_results(const RunFolder& folder) {
-  for (const char* name : {"log.txt", "report.json", "history.csv", "fragments.csv", "size_distribution.csv",
-                           "picture.png", "checkpoint.h5", "frames.pvd", "cracks.pvd"})
+  for (const char* name :
+       {"log.txt", "report.json", "history.csv", "fragments.csv", "size_distribution.csv", "picture.png",
+        "checkpoint.h5", "frames.pvd", "cracks.pvd", "tools.pvd", "force_displacement.csv", "force_displacement.png"})
     fs::remove(folder.path / name);
   remove_frames(folder.path / "frames", "frame_");
   remove_frames(folder.path / "cracks", "cracks_");
+  remove_frames(folder.path / "tools", "tools_");
 }
 
 void make_folder(const fs::path& path) {

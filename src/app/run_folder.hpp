@@ -20,6 +20,8 @@ struct RunFolder {
   std::filesystem::path fragments() const { return path / "fragments.csv"; }
   std::filesystem::path size_distribution() const { return path / "size_distribution.csv"; }
   std::filesystem::path picture() const { return path / "picture.png"; }
+  std::filesystem::path force_displacement() const { return path / "force_displacement.csv"; }
+  std::filesystem::path force_plot() const { return path / "force_displacement.png"; }
   std::filesystem::path checkpoint() const { return path / "checkpoint.h5"; }
 };
 

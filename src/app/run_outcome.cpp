@@ -12,6 +12,8 @@ namespace {
 
 Pieces pieces(const Simulation& s, FragmentLabel label) {
   const auto labels = fragment_labels(s.topology, s.cracks, label);
+  std::vector<double> densities;
+  for (const ParticleOptions& particle : s.options.particles) densities.push_back(particle.density);
   Pieces result;
   result.fragment_of_tet = labels_by_size(labels, s.reference.tet_volume);
   result.fragments = find_fragments({.tet_nodes = s.topology.tet_nodes,
@@ -20,8 +22,9 @@ Pieces pieces(const Simulation& s, FragmentLabel label) {
                                      .x = s.nodes.x,
                                      .v = s.nodes.v,
                                      .tet_volume = s.reference.tet_volume,
-                                     .density = s.options.density,
-                                     .label = labels});
+                                     .densities = densities,
+                                     .label = labels,
+                                     .particle_of_tet = s.reference.particle_of_tet});
   return result;
 }
 
@@ -35,6 +38,18 @@ EnergyTerm most_changed(const EnergyLedger& before, const EnergyLedger& now) {
     if (change > largest) worst = term, largest = change;
   }
   return static_cast<EnergyTerm>(worst);
+}
+
+// Of the particle's own fragments, over its own mass and size.
+ParticleOutcome particle_outcome(const ParticleIdentity& particle, Index number, const Pieces& pieces,
+                                 double element_size) {
+  std::vector<Fragment> own;
+  for (const Fragment& fragment : pieces.fragments)
+    if (fragment.particle == number) own.push_back(fragment);
+  ParticleOutcome outcome{.name = particle.name, .velocity = own.front().velocity};
+  for (const Fragment& fragment : own) outcome.mass += fragment.mass;
+  outcome.measures = breakage_measures(own, {outcome.mass, particle.diameter, element_size});
+  return outcome;
 }
 
 }  // namespace
@@ -53,6 +68,9 @@ RunOutcome run_outcome(const Simulation& s, const RunIdentity& identity, const S
   const ParticleScale scale{s.reference.start.mass, identity.card.input.diameter, s.reference.mean_edge};
   outcome.strict.measures = breakage_measures(outcome.strict.fragments, scale);
   outcome.damage.measures = breakage_measures(outcome.damage.fragments, scale);
+  for (std::size_t i = 0; i < identity.particles.size(); ++i)
+    outcome.particles.push_back(
+        particle_outcome(identity.particles[i], to_index(i), outcome.damage, s.reference.mean_edge));
   return outcome;
 }
 
@@ -60,6 +78,7 @@ std::string_view status(StopReason reason) {
   switch (reason) {
     case StopReason::AtRest:
     case StopReason::EndTime:
+    case StopReason::ForceDropped:
       return "finished";
     case StopReason::Interrupted:
       return "interrupted";
@@ -72,7 +91,7 @@ std::string_view status(StopReason reason) {
 
 std::string failure_message(const Simulation& s, StopReason reason) {
   const EnergyTerm term = most_changed(s.last_good_ledger, s.ledger);
-  const double incident = s.reference.incident_energy;
+  const double incident = s.ledger.reference;
   const std::string change = fmt::format(
       "since the balance was last within 1 %, {} changed most: from {:.4g} to {:.4g} of the incident energy",
       name(term), s.last_good_ledger[term] / incident, s.ledger[term] / incident);

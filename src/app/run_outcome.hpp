@@ -2,6 +2,7 @@
 #include <string>
 
 #include "analysis/breakage.hpp"
+#include "analysis/compression.hpp"
 #include "analysis/sanity_card.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "observers/fragment_census.hpp"
@@ -24,6 +25,28 @@ struct Session {
   int threads = 1;
 };
 
+/// What a driven tool found out about the particle's strength.
+struct Compression {
+  std::string tool;
+  ForceCurve curve;
+  std::vector<double> smoothed{};  ///< force at the curve's times [N]
+  FractureForce fracture{};
+};
+
+/// A particle of the case, as it was.
+struct ParticleIdentity {
+  std::string name;
+  double diameter = 0.0;  ///< of the sphere of equal volume [m]
+};
+
+/// What became of one of several particles, by the damage label.
+struct ParticleOutcome {
+  std::string name;
+  double mass = 0.0;             ///< [kg]
+  Vec3 velocity = Vec3::Zero();  ///< of its largest piece [m/s]
+  BreakageMeasures measures{};
+};
+
 /// All that report, tables, picture and summary tell.
 struct RunOutcome {
   std::string case_name;
@@ -36,6 +59,8 @@ struct RunOutcome {
   Rebound rebound;
   MomentumErrors momentum;
   std::string state_hash;
+  std::vector<ParticleOutcome> particles{};  ///< in the order of the case
+  std::optional<Compression> compression{};  ///< absent where no tool presses
 };
 
 /// What a run is known by before it starts.
@@ -43,6 +68,7 @@ struct RunIdentity {
   std::string case_name;
   SanityCard card;
   MeshQuality quality;
+  std::vector<ParticleIdentity> particles{};  ///< none = one without a name
 };
 RunOutcome run_outcome(const Simulation& s, const RunIdentity& identity, const Session& session);
 

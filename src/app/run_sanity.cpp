@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "app/simulation_options.hpp"
+#include "config/derived_values.hpp"
 #include "core/parallel.hpp"
 #include "fem/stable_time_step.hpp"
 #include "simulation/step.hpp"
@@ -32,12 +34,61 @@ constexpr double latest_crossings_after_contact = 20.0;
 // Meshes up to this size are copied to time a few steps.
 constexpr Index most_tets_to_copy = 500000;
 
+// Speed and angle at which the fastest of those meet that a case has: particles, wall and tools.
+constexpr double right_angle = std::numbers::pi / 2.0;
+
+struct Approach {
+  double speed = 0.0;           ///< [m/s]
+  double angle = right_angle;   ///< from the surface [rad]
+  double pressing_speed = 0.0;  ///< of the fastest tool that will not be stopped [m/s]
+};
+
+Vec3 start_velocity(const ToolConfig& tool) {
+  const Vec3 arm = tool.position.value_or(tool.rotation_centre) - tool.rotation_centre;
+  return tool.motion == MotionKind::Rotation ? Vec3(tool.angular_speed * tool.rotation_axis.normalized().cross(arm))
+                                             : tool.velocity;
+}
+
+Approach approach(const RunConfig& config) {
+  Approach result;
+  const auto see = [&](double speed, double angle) {
+    if (speed > result.speed) result.speed = speed, result.angle = angle;
+  };
+  for (const ParticleConfig& particle : config.particles) {
+    const Vec3 velocity = start_velocity(config, particle);
+    if (has_wall(config) && !particle.velocity)
+      see(config.impact.speed, config.impact.angle);
+    else if (has_wall(config))
+      see(velocity.norm(), std::asin(std::clamp(-velocity.z() / std::max(velocity.norm(), 1e-300), 0.0, 1.0)));
+    for (const ParticleConfig& other : config.particles)
+      see((velocity - start_velocity(config, other)).norm(), right_angle);
+    for (const ToolConfig& tool : config.tools) see((start_velocity(tool) - velocity).norm(), right_angle);
+  }
+  if (result.speed == 0.0)  // by gravity alone: a fall of the size of the particles
+    see(std::sqrt(2.0 * config.run.gravity.norm() * std::cbrt(particle_volume(config.particles.front()))), right_angle);
+  for (const ToolConfig& tool : config.tools)
+    if (tool.motion == MotionKind::Velocity || tool.motion == MotionKind::Ramp)
+      result.pressing_speed = std::max(result.pressing_speed, tool.velocity.norm());
+  return result;
+}
+
+// How long tools press at most: this part of the particle's diameter, and what their ramp takes.
+double press_time(const RunConfig& config, double diameter) {
+  constexpr double share_of_diameter = 0.25;
+  const double speed = approach(config).pressing_speed;
+  if (speed == 0.0) return 0.0;
+  double ramp = 0.0;
+  for (const ToolConfig& tool : config.tools) ramp = std::max(ramp, tool.ramp_time);
+  return share_of_diameter * diameter / speed + ramp;
+}
+
 SanityInput material_input(const RunConfig& config) {
+  const Approach meeting = approach(config);
   SanityInput input{.young_modulus = config.particles[0].material.young_modulus,
                     .poisson_ratio = config.particles[0].material.poisson_ratio,
                     .density = config.particles[0].material.density,
-                    .speed = config.impact.speed,
-                    .angle = config.impact.angle,
+                    .speed = meeting.speed,
+                    .angle = meeting.angle,
                     .end_time = config.run.end_time};
   const FractureConfig& fracture = config.particles[0].fracture;
   if (fracture.insertion != Insertion::None)
@@ -48,23 +99,26 @@ SanityInput material_input(const RunConfig& config) {
 double volume_diameter(double volume) { return std::cbrt(6.0 / std::numbers::pi * volume); }
 
 bool is_expected_to_break(const SanityCard& card) {
-  return card.fracture && card.normal_speed > breaking_speed_ratio * card.fracture->critical_speed;
+  const bool is_fast = card.fracture && card.normal_speed > breaking_speed_ratio * card.fracture->critical_speed;
+  return is_fast || (card.fracture && card.input.press_time > 0.0);
 }
 
-// Until the particle meets the wall.
+// Until the particle meets what it strikes.
 double approach_time(const SanityCard& card) {
   return initial_gap(card.input.contact_element_size) / card.normal_speed;
 }
 
 // The latest end of a run that stops by itself. A broken one often gets there: dust keeps touching the wall.
 double latest_end(const SanityCard& card) {
-  return approach_time(card) + std::max(crossings_to_break * card.crossing_time,
-                                        card.contact_time + latest_crossings_after_contact * card.crossing_time);
+  const double impact = std::max(crossings_to_break * card.crossing_time,
+                                 card.contact_time + latest_crossings_after_contact * card.crossing_time);
+  return approach_time(card) + std::max(impact, card.input.press_time);
 }
 
 double expected_end(const SanityCard& card, bool breaks) {
-  return breaks ? latest_end(card)
-                : approach_time(card) + card.contact_time + crossings_after_contact * card.crossing_time;
+  return breaks || card.input.press_time > 0.0
+             ? latest_end(card)
+             : approach_time(card) + card.contact_time + crossings_after_contact * card.crossing_time;
 }
 
 // The card with end, steps and wall time to expect; `elastic` is the cost of an elastic step over the tets.
@@ -86,7 +140,8 @@ SanityCard card_with_estimated_step(const RunConfig& config, SanityInput input) 
 }
 
 // The node with the shortest critical step, for the reader.
-std::string step_limit(const Simulation& s, const TetMesh& mesh) {
+std::string step_limit(const Simulation& s) {
+  const std::vector<Vec3>& x = s.reference.vertices;
   Index worst = 0;
   double largest = 0.0;
   for (Index i = 0; i < s.nodes.size(); ++i) {
@@ -97,9 +152,8 @@ std::string step_limit(const Simulation& s, const TetMesh& mesh) {
   double edge = 1e300;
   for (const Index corner : s.topology.corners_of_vertex[worst])
     for (const Index other : s.topology.tet_vertices[at(corner >> 2)])
-      if (other != worst) edge = std::min(edge, (mesh.vertices[at(other)] - mesh.vertices[at(worst)]).norm());
-  return fmt::format("a node {:.3g} mm above the wall, shortest edge {:.3g} um", 1e3 * mesh.vertices[at(worst)].z(),
-                     1e6 * edge);
+      if (other != worst) edge = std::min(edge, (x[at(other)] - x[at(worst)]).norm());
+  return fmt::format("a node {:.3g} mm above the wall, shortest edge {:.3g} um", 1e3 * x[at(worst)].z(), 1e6 * edge);
 }
 
 // Per tet and step; the median over a few steps, because other programs may use the machine too.
@@ -119,6 +173,7 @@ double measured_elastic_cost(const Simulation& s) {
 SanityInput mesh_input(const RunConfig& config, const ParticleMesh& particle) {
   SanityInput input = material_input(config);
   input.diameter = particle.diameter;
+  input.press_time = press_time(config, particle.diameter);
   input.volume = particle.quality.total_volume;
   input.contact_element_size = particle.contact_element_size;
   input.element_size = particle.element_size;
@@ -132,6 +187,7 @@ SanityCard estimated_card(const RunConfig& config, const Shape& shape) {
   SanityInput input = material_input(config);
   input.volume = volume(shape);
   input.diameter = volume_diameter(input.volume);
+  input.press_time = press_time(config, input.diameter);
   input.contact_element_size = config.particles[0].mesh.contact_element_size;
   input.element_size = config.particles[0].mesh.element_size;
   input.num_tets = static_cast<Index>(expected_num_tets(shape, mesh_options(config.particles[0].mesh, shape)));
@@ -144,7 +200,8 @@ SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle) {
 
 SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s) {
   SanityInput input = mesh_input(config, particle);
-  input.time_step = {s.clock.dt, step_limit(s, particle.mesh)};
+  input.num_tets = s.topology.num_tets();
+  input.time_step = {s.clock.dt, step_limit(s)};
   const bool timed = s.topology.num_tets() <= most_tets_to_copy;
   return card_with_cost(input, timed ? measured_elastic_cost(s) : elastic_cost / num_threads());
 }

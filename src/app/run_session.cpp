@@ -51,7 +51,7 @@ void restore(PreparedRun& run, History& history, std::optional<VtkFrames>& frame
   } catch (const InputError& error) {
     throw InputError(fmt::format("{}: {}", options.folder.checkpoint().string(), error.what()));
   }
-  history.resume(s.clock.step);
+  history.resume(s.clock.step, s.tools.size());
   if (frames) frames->resume(s.clock.step, s.clock.dt);
 }
 

@@ -27,22 +27,41 @@ FractureOptions fracture_options(const FractureConfig& fracture) {
           .weibull_seed = static_cast<std::uint64_t>(fracture.weibull_seed)};
 }
 
+ParticleOptions particle_options(const ParticleConfig& particle, const ImpactConfig& impact) {
+  ParticleOptions options{.young_modulus = particle.material.young_modulus,
+                          .poisson_ratio = particle.material.poisson_ratio,
+                          .density = particle.material.density,
+                          .viscous_ratio = particle.material.viscous_ratio,
+                          .relaxation_time = particle.material.relaxation_time,
+                          .fracture = std::nullopt,
+                          .friction = particle.fracture.sliding_friction,
+                          .velocity = particle.velocity.value_or(impact_velocity(impact)),
+                          .spin = particle.spin.value_or(impact.spin)};
+  if (particle.fracture.insertion != Insertion::None) options.fracture = fracture_options(particle.fracture);
+  return options;
+}
+
 }  // namespace
 
+Vec3 start_velocity(const RunConfig& config, const ParticleConfig& particle) {
+  return particle.velocity.value_or(impact_velocity(config.impact));
+}
+
 SimulationOptions simulation_options(const RunConfig& config) {
-  SimulationOptions options{.young_modulus = config.particles[0].material.young_modulus,
-                            .poisson_ratio = config.particles[0].material.poisson_ratio,
-                            .density = config.particles[0].material.density,
-                            .viscous_ratio = config.particles[0].material.viscous_ratio,
-                            .relaxation_time = config.particles[0].material.relaxation_time,
-                            .fracture = std::nullopt,
-                            .tools = {wall(config.impact.wall_friction)},
-                            .velocity = impact_velocity(config.impact),
-                            .spin = config.impact.spin,
+  SimulationOptions options{.particles = {},
+                            .gravity = config.run.gravity,
                             .step_safety = config.run.step_safety,
                             .insertion_interval = config.run.insertion_interval};
-  if (config.particles[0].fracture.insertion != Insertion::None)
-    options.fracture = fracture_options(config.particles[0].fracture);
+  for (const ParticleConfig& particle : config.particles)
+    options.particles.push_back(particle_options(particle, config.impact));
+  const ContactConfig& contact = config.contact;
+  options.rigid_fragments.enabled = contact.rigid_fragments;
+  if (contact.rigid_fragments) {
+    options.rigid_fragments.quiet_crossings = contact.freeze_after_crossings;
+    options.rigid_fragments.approach_share = contact.wake_at_speed_share;
+    options.rigid_fragments.load_share = contact.wake_at_load_share;
+    options.restitution = contact.restitution;
+  }
   return options;
 }
 

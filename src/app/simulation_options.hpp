@@ -4,7 +4,10 @@
 
 namespace knap {
 
-/// What a case asks of the solver; the wall is the plane z = 0.
+/// How a particle of a case moves at the start [m/s].
+Vec3 start_velocity(const RunConfig& config, const ParticleConfig& particle);
+
+/// What a case asks of the solver, but for its tools, which stand where the particles are.
 SimulationOptions simulation_options(const RunConfig& config);
 
 }  // namespace knap

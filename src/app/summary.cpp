@@ -32,8 +32,10 @@ std::string plain(std::string_view term) {
 }
 
 void add_energies(std::string& text, const Simulation& s, bool utf8) {
-  const double incident = s.reference.incident_energy;
-  text += fmt::format("  energy at the end, of {:.4g} mJ incident\n", 1e3 * incident);
+  const double incident = s.ledger.reference;
+  const bool is_incident = incident == s.reference.incident_energy;
+  text += fmt::format("  energy at the end, of {:.4g} mJ {}\n", 1e3 * incident,
+                      is_incident ? "incident" : "incident and by tools");
   for (std::size_t i = 0; i < num_energy_terms; ++i) {
     const double share = s.ledger.value[i] / incident;
     if (std::abs(share) < 5e-5) continue;
@@ -76,6 +78,12 @@ std::string rebound_line(const RunOutcome& outcome) {
   return line;
 }
 
+std::string strength_line(const Compression& c) {
+  return fmt::format("{:.4g} MPa, {:.4g} N by {} after {:.4g} um{}", 1e-6 * c.fracture.strength, c.fracture.force,
+                     c.tool, 1e6 * c.fracture.displacement,
+                     c.fracture.has_dropped ? "" : "; the force has not dropped yet");
+}
+
 }  // namespace
 
 std::string summary(const Simulation& s, const RunOutcome& outcome, const std::string& folder, bool utf8) {
@@ -84,9 +92,18 @@ std::string summary(const Simulation& s, const RunOutcome& outcome, const std::s
       fmt::format("{}: {}, stopped at {:.4g} us ({})\n", outcome.case_name,
                   name(outcome.damage.measures.breakage_class), 1e6 * s.clock.time(), name(session.stop_reason));
   add_pieces(text, outcome);
+  if (outcome.particles.size() > 1)
+    for (const ParticleOutcome& particle : outcome.particles)
+      add_line(text, particle.name,
+               fmt::format("{}, largest piece {:.2f} % of it, chipping ratio {:.2f} %",
+                           name(particle.measures.breakage_class), 100.0 * particle.measures.largest_mass_fraction,
+                           100.0 * particle.measures.chipping_ratio));
   add_cracks(text, outcome.cracks);
-  add_line(text, "rebound", rebound_line(outcome));
-  if (!s.tools.empty()) add_line(text, "wall force", fmt::format("{:.4g} N at most", s.tools.front().state.max_force));
+  if (s.reference.incident_energy > 0.0 && s.options.particles.size() == 1)
+    add_line(text, "rebound", rebound_line(outcome));
+  for (const Tool& tool : s.tools)
+    add_line(text, tool.name + " force", fmt::format("{:.4g} N at most", tool.state.max_force));
+  if (outcome.compression) add_line(text, "strength", strength_line(*outcome.compression));
   add_energies(text, s, utf8);
   add_line(text, "closure error", fmt::format("{:.4f} % at most", 100.0 * s.ledger.max_closure_error));
   if (s.totals.smallest_volume_ratio <= 0.0) add_line(text, "inverted", "a tet was turned inside out");

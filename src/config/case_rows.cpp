@@ -38,6 +38,28 @@ std::vector<Key> impact_keys() {
   };
 }
 
+std::vector<Key> contact_keys() {
+  using C = ContactConfig;
+  constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.contact; };
+  const Condition rigid{"rigid_fragments = true",
+                        [](const RunConfig& c, std::size_t) { return c.contact.rigid_fragments; }};
+  return {
+      word(
+          "rigid_fragments", KeyType::Switch, {}, value("false"), field(in, &C::rigid_fragments),
+          "Whether fragments that have stopped breaking are carried as rigid bodies until something could break them."),
+      only_when(rigid, quantity("restitution", Ratio, "[0, 1]", value("0"), field(in, &C::restitution),
+                                "Speed of parting over speed of approach between rigid fragments.")),
+      only_when(rigid,
+                quantity("freeze_after_crossings", Ratio, "[0, 1e6]", value("5"), field(in, &C::freeze_after_crossings),
+                         "Quiet time before a fragment becomes rigid, in times that a wave takes to cross it.")),
+      only_when(rigid,
+                quantity("wake_at_speed_share", Ratio, "(0, 1]", value("0.25"), field(in, &C::wake_at_speed_share),
+                         "An approach faster than this part of its critical impact speed wakes a fragment.")),
+      only_when(rigid, quantity("wake_at_load_share", Ratio, "(0, 1]", value("0.3"), field(in, &C::wake_at_load_share),
+                                "A load 0.9 F/d^2 above this part of its strength wakes a fragment.")),
+  };
+}
+
 std::vector<Key> run_keys() {
   using C = TimeConfig;
   constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.run; };

@@ -95,7 +95,7 @@ void check_fracture(const FractureConfig& fracture, std::vector<std::string>& fo
                     fracture.toughness, energy));
 }
 
-void check_tool(const ToolConfig& tool, std::vector<std::string>& found) {
+void check_tool(const RunConfig& config, const ToolConfig& tool, std::vector<std::string>& found) {
   const auto refuse_zero = [&](const char* key, const Vec3& direction) {
     if (direction.norm() < 1e-12)
       found.push_back(fmt::format("tool.{} = [0, 0, 0]: must point somewhere (tool {})", key, tool.name));
@@ -106,8 +106,39 @@ void check_tool(const ToolConfig& tool, std::vector<std::string>& found) {
   const bool is_driven = tool.motion == MotionKind::Velocity || tool.motion == MotionKind::Ramp;
   if (is_driven && tool.velocity.norm() == 0.0)
     found.push_back(fmt::format("tool.velocity = [0, 0, 0]: is rest, write motion = \"rest\" (tool {})", tool.name));
+  const bool has_no_way = tool.velocity.norm() == 0.0 && config.run.gravity.norm() == 0.0;
+  if (tool.motion == MotionKind::Free && has_no_way)
+    found.push_back(
+        fmt::format("tool.velocity is missing: a free tool moves along it or along run.gravity (tool {})", tool.name));
   if (tool.motion == MotionKind::Free && tool.type == ToolKind::Plane)
     found.push_back(fmt::format("tool.motion = \"free\": a plane has no mass; take a platen (tool {})", tool.name));
+}
+
+void check_positions(const RunConfig& config, std::vector<std::string>& found) {
+  for (std::size_t i = 1; i < config.particles.size(); ++i)
+    if (!config.particles[i].position)
+      found.push_back(
+          fmt::format("particle.position is missing: of several particles, only the first is placed on the "
+                      "plane z = 0 (particle {})",
+                      config.particles[i].name));
+  for (const ToolConfig& tool : config.tools)
+    if (tool.motion == MotionKind::Rotation && !tool.position)
+      found.push_back(fmt::format("tool.position is missing: needed when motion = \"rotation\" (tool {})", tool.name));
+}
+
+// A case in which nothing would ever happen.
+void check_motion(const RunConfig& config, std::vector<std::string>& found) {
+  const auto& particles = config.particles;
+  const auto& tools = config.tools;
+  const bool particle_moves =
+      config.impact.speed > 0.0 || std::any_of(particles.begin(), particles.end(), [](const ParticleConfig& particle) {
+        return particle.velocity.value_or(Vec3::Zero()).norm() > 0.0;
+      });
+  const bool tool_moves = std::any_of(tools.begin(), tools.end(), [](const ToolConfig& tool) {
+    return tool.velocity.norm() > 0.0 || tool.angular_speed != 0.0;
+  });
+  if (!particle_moves && !tool_moves && config.run.gravity.norm() == 0.0)
+    found.emplace_back("nothing moves: give impact.speed, a particle's velocity, a tool's motion or run.gravity");
 }
 
 void check_names(const RunConfig& config, std::vector<std::string>& found) {
@@ -179,8 +210,10 @@ std::vector<std::string> contradictions(const RunConfig& config) {
     check_fracture(particle.fracture, own);
     for (const std::string& text : own) found.push_back(prefix(config, particle) + text);
   }
-  for (const ToolConfig& tool : config.tools) check_tool(tool, found);
+  for (const ToolConfig& tool : config.tools) check_tool(config, tool, found);
   check_names(config, found);
+  check_positions(config, found);
+  check_motion(config, found);
   return found;
 }
 

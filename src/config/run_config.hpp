@@ -108,8 +108,19 @@ struct ToolConfig {
   double angular_speed = 0.0;           ///< [rad/s]
   Vec3 rotation_axis = Vec3::UnitZ();   ///< any length
   Vec3 rotation_centre = Vec3::Zero();  ///< a point on the axis [m]
-  double mass = 0.0;                    ///< of a free tool [kg]
+  double stop_at_force_drop = 0.0;  ///< the run ends when the tool's force is below this part of its largest; 0 = never
+  double mass = 0.0;                ///< of a free tool [kg]
   bool operator==(const ToolConfig&) const = default;
+};
+
+/// Fragments that have come loose.
+struct ContactConfig {
+  double restitution = 0.0;             ///< between fragments carried as rigid bodies [-]
+  bool rigid_fragments = false;         ///< carry fragments that have stopped breaking as rigid bodies
+  double freeze_after_crossings = 0.0;  ///< without damage, in times that a wave takes to cross the fragment
+  double wake_at_speed_share = 0.0;     ///< of the speed at which it would break: a faster approach wakes it
+  double wake_at_load_share = 0.0;      ///< of its strength: a larger 0.9 F/d^2 wakes it
+  bool operator==(const ContactConfig&) const = default;
 };
 
 struct TimeConfig {
@@ -133,6 +144,7 @@ struct OutputConfig {
 struct RunConfig {
   std::vector<ParticleConfig> particles = std::vector<ParticleConfig>(1);  ///< at least one
   ImpactConfig impact;
+  ContactConfig contact;
   std::vector<ToolConfig> tools;
   TimeConfig run;
   OutputConfig output;

@@ -47,8 +47,10 @@ std::vector<Key> geometry_keys() {
                          "Radius of the sphere, the cylinder or the disc.")),
       only_when(type_is({Cylinder}), quantity("length", Length, "[1 um, 10 m]", required(), field(in, &C::length),
                                               "Length of the cylinder, whose ends are flat.")),
-      only_when(type_is({Platen}), quantity("thickness", Length, "[1 um, 10 m]", derived("1/4 of the radius"),
-                                            field(in, &C::thickness), "Thickness of the disc behind its face.")),
+      only_when(type_is({Platen, Stl}),
+                quantity("thickness", Length, "[1 um, 10 m]", derived("platen: 1/4 of the radius; stl: 0"),
+                         field(in, &C::thickness),
+                         "Thickness of the disc behind its face, or of the shell that an open STL surface is.")),
       only_when(type_is({Plane, Platen, Stl}),
                 vector("normal", Ratio, "[-1e6, 1e6]", value("[0, 0, 1]"), field(in, &C::normal),
                        "Where the face looks: out of the tool, towards the particle; the file's z axis is turned "
@@ -100,9 +102,13 @@ std::vector<Key> tool_keys() {
   for (Key& key : geometry_keys()) keys.push_back(std::move(key));
   keys.push_back(quantity("friction", Ratio, "[0, 10]", value("0.3"), field(in, &C::friction),
                           "Coefficient of friction between particle and tool."));
-  keys.push_back(word("motion", KeyType::Choice, motions, value("rest"), choice(in, &C::motion, motions),
-                      "How it moves: prescribed, or free under its own inertia, gravity and the particle's push."));
+  keys.push_back(
+      word("motion", KeyType::Choice, motions, value("rest"), choice(in, &C::motion, motions),
+           "How it moves: prescribed; or free along its velocity (from rest: along gravity), as a weight on rails."));
   for (Key& key : motion_keys()) keys.push_back(std::move(key));
+  keys.push_back(quantity("stop_at_force_drop", Ratio, "[0, 0.99]", value("0"), field(in, &C::stop_at_force_drop),
+                          "The run ends when the tool's force has fallen to this part of its largest and something has "
+                          "cracked; 0 = it does not."));
   return keys;
 }
 

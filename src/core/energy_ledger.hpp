@@ -18,7 +18,9 @@ enum class EnergyTerm {
   Viscous,             ///< loss of the viscoelastic branch
   RigidVibration,      ///< vibration lost by fragments that became rigid bodies
   MassScaling,         ///< kinetic energy of mass added at splits, counted negative
-  ToolWork,            ///< done by moving tools on the particle, counted negative
+  ToolWork,            ///< done by tools of prescribed motion on the particle, counted negative
+  ToolKinetic,         ///< of tools with a mass of their own
+  Gravity,             ///< potential energy of particle and such tools, 0 at the start
   Count
 };
 
@@ -30,7 +32,7 @@ std::string_view name(EnergyTerm term);
 struct EnergyLedger {
   std::array<double, num_energy_terms> value{};
   double initial = 0.0;            ///< total at the start [J]
-  double reference = 0.0;          ///< what errors are measured against: the incident kinetic energy [J]
+  double reference = 0.0;          ///< what errors are measured against: incident kinetic energy and tools' work [J]
   double max_closure_error = 0.0;  ///< largest |total - initial| / reference so far
 
   double& operator[](EnergyTerm term) { return value[static_cast<std::size_t>(term)]; }

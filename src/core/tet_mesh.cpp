@@ -4,6 +4,19 @@
 
 namespace knap {
 
+TetMesh merged(std::span<const TetMesh> meshes) {
+  TetMesh all;
+  for (const TetMesh& mesh : meshes) {
+    const Index first = all.num_vertices();
+    all.vertices.insert(all.vertices.end(), mesh.vertices.begin(), mesh.vertices.end());
+    for (TetCorners tet : mesh.tets) {
+      for (Index& vertex : tet) vertex += first;
+      all.tets.push_back(tet);
+    }
+  }
+  return all;
+}
+
 double tet_volume(const TetMesh& mesh, Index tet) {
   const auto& [a, b, c, d] = mesh.tets[at(tet)];
   const auto& v = mesh.vertices;

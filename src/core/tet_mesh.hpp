@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "core/types.hpp"
 
 namespace knap {
@@ -11,6 +13,9 @@ struct TetMesh {
   Index num_vertices() const { return to_index(vertices.size()); }
   Index num_tets() const { return to_index(tets.size()); }
 };
+
+/// The meshes in one, vertices and tets one mesh after the other.
+TetMesh merged(std::span<const TetMesh> meshes);
 
 /// Signed volume [m3] of the tet (a, b, c, d).
 inline double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {

@@ -31,6 +31,14 @@ void check_input(const PictureInput& input) {
       throw std::invalid_argument("picture: a broken facet has no such node");
     }
   }
+  for (const PictureTool& tool : input.tools) {
+    const auto is_point = [&](Index point) { return point >= 0 && at(point) < tool.points.size(); };
+    for (const auto& triangle : tool.triangles) {
+      if (!std::all_of(triangle.begin(), triangle.end(), is_point)) {
+        throw std::invalid_argument("picture: a tool has no such point");
+      }
+    }
+  }
   for (const Vec3& point : input.points) {
     if (!point.allFinite()) throw RuntimeFailure("picture: a node position is not a finite number");
   }

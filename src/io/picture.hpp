@@ -8,6 +8,12 @@
 
 namespace knap {
 
+/// A tool to be seen behind and around the particle.
+struct PictureTool {
+  std::vector<Vec3> points;  ///< [m]
+  std::vector<std::array<Index, 3>> triangles;
+};
+
 /// What the picture of a particle shows.
 struct PictureInput {
   std::vector<Vec3> points;  ///< deformed nodes, apart where cracks have parted them [m]
@@ -17,6 +23,7 @@ struct PictureInput {
   std::vector<double> fragment_mass;                              ///< [kg]
   std::vector<double> damage_of_tet;                              ///< 0 .. 1
   double wall_height = std::numeric_limits<double>::quiet_NaN();  ///< z of the wall [m]; nan = no wall
+  std::vector<PictureTool> tools;                                 ///< grey and half transparent, near the particle
   double dust_share = 1e-3;  ///< fragments of less than this share of the mass are dust: grey, left out when exploded
   std::string title;         ///< UTF-8, as all texts
   std::string subtitle;

@@ -124,6 +124,23 @@ void add_wall(vtkRenderer* view, const Vec3& centre, double radius) {
   add_flat(view, disc);
 }
 
+void add_ghost(vtkRenderer* view, vtkPolyData* data) {
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(data);
+  normals->SetFeatureAngle(35.0);
+  normals->ConsistencyOff();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  mapper->ScalarVisibilityOff();
+  vtkNew<vtkActor> actor;
+  actor->SetMapper(mapper);
+  actor->GetProperty()->SetColor(0.62, 0.64, 0.68);
+  actor->GetProperty()->SetOpacity(0.35);
+  actor->GetProperty()->SetAmbient(0.25);
+  actor->GetProperty()->SetDiffuse(0.75);
+  view->AddActor(actor);
+}
+
 void aim(vtkRenderer* view, const std::vector<Vec3>& shown, const Framing& framing) {
   constexpr double margin = 1.06;
   const double a = framing.azimuth * degree;

@@ -24,6 +24,9 @@ void add_lines(vtkRenderer* view, vtkPolyData* data);
 /// Adds a grey horizontal disc around `centre` that fades into the background, wider than a particle of `radius` [m].
 void add_wall(vtkRenderer* view, const Vec3& centre, double radius);
 
+/// Adds data in grey through which one can see.
+void add_ghost(vtkRenderer* view, vtkPolyData* data);
+
 struct Framing {
   double azimuth = 0.0;    ///< 0 = seen from -y, counter-clockwise from above [degrees]
   double elevation = 0.0;  ///< [degrees]

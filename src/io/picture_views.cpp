@@ -4,9 +4,12 @@
 #include <vtkCellData.h>
 #include <vtkClipPolyData.h>
 #include <vtkCutter.h>
+#include <vtkLinearSubdivisionFilter.h>
 #include <vtkPlane.h>
+#include <vtkSphere.h>
 #include <vtkUnstructuredGrid.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -92,6 +95,43 @@ void add_wall_below(vtkRenderer* view, const std::vector<Vec3>& shown, const Pic
   add_wall(view, centre, radius);
 }
 
+/// The tools as far as they are near what is shown, and behind `cut` if there is one.
+void add_tools(vtkRenderer* view, const std::vector<Vec3>& shown, const PictureInput& input, vtkPlane* cut) {
+  constexpr double reach = 1.5;  // in radii of the sphere around what is shown
+  Eigen::AlignedBox3d box;
+  for (const Vec3& point : shown) box.extend(point);
+  const Vec3 centre = box.center();
+  vtkNew<vtkSphere> near;
+  near->SetCenter(centre.data());
+  near->SetRadius(reach * 0.5 * box.sizes().maxCoeff());
+  for (const PictureTool& tool : input.tools) {
+    vtkNew<vtkCellArray> triangles;
+    for (const auto& [a, b, c] : tool.triangles) triangles->InsertNextCell({a, b, c});
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(vtk_points(tool.points));
+    data->SetPolys(triangles);
+    // Large triangles, as of a disc, are cut to small ones first: a clip interpolates distance along their edges.
+    vtkNew<vtkLinearSubdivisionFilter> fine;
+    fine->SetInputData(data);
+    fine->SetNumberOfSubdivisions(tool.triangles.size() < 2000 ? 3 : 0);
+    vtkNew<vtkClipPolyData> clip;
+    clip->SetInputConnection(fine->GetOutputPort());
+    clip->SetClipFunction(near);
+    clip->InsideOutOn();
+    clip->Update();
+    if (cut == nullptr) {
+      add_ghost(view, clip->GetOutput());
+      continue;
+    }
+    vtkNew<vtkClipPolyData> rear;
+    rear->SetInputData(clip->GetOutput());
+    rear->SetClipFunction(cut);
+    rear->Update();
+    add_ghost(view, rear->GetOutput());
+    add_lines(view, section(clip->GetOutput(), cut));
+  }
+}
+
 }  // namespace
 
 void add_outside_view(vtkRenderer* view, const PictureInput& input, const PictureGeometry& geometry) {
@@ -101,6 +141,7 @@ void add_outside_view(vtkRenderer* view, const PictureInput& input, const Pictur
   add_lines(view, crack_line_data(input.points, geometry));
   const std::vector<Vec3> shown = main_points(input.points, input, geometry);
   add_wall_below(view, shown, input, geometry);
+  add_tools(view, shown, input, nullptr);
   aim(view, shown, {.azimuth = 20.0, .elevation = 14.0, .floor = 0.14});
   add_lights(view);
 }
@@ -120,6 +161,7 @@ void add_cut_view(vtkRenderer* view, const PictureInput& input, const PictureGeo
   add_lines(view, section(broken_facet_data(input), plane));
   const std::vector<Vec3> shown = main_points(input.points, input, geometry);
   add_wall_below(view, shown, input, geometry);
+  add_tools(view, shown, input, plane);
   aim(view, shown, {.elevation = 8.0, .floor = 0.14});
   add_lights(view);
 }

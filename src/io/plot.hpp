@@ -9,7 +9,7 @@ namespace knap {
 struct PlotSeries {
   enum class Style { Line, Points };
   std::string name;  ///< in the legend, UTF-8 as all texts
-  std::vector<double> x, y;
+  std::vector<double> x{}, y{};
   Style style = Style::Line;
 };
 

@@ -1,5 +1,7 @@
 #include "io/plot_scene.hpp"
 
+#include <fmt/format.h>
+
 #include <vtkAutoInit.h>
 #include <vtkAxis.h>
 #include <vtkChartLegend.h>
@@ -13,10 +15,14 @@
 #include <vtkPlotPoints.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkStringArray.h>
 #include <vtkTable.h>
 #include <vtkTextProperty.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
 #include "core/errors.hpp"
 #include "io/vtk_threads.hpp"
@@ -58,7 +64,40 @@ void add_series(vtkChartXY* chart, const PlotSeries& series, std::size_t number)
   points->SetMarkerSize(9.0F * enlargement);
 }
 
-void set_axis(vtkAxis* axis, const std::string& label) {
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -low;
+};
+
+Interval range_of(const PlotInput& input, const std::vector<double> PlotSeries::*values) {
+  Interval range;
+  for (const PlotSeries& series : input.series)
+    for (const double value : series.*values) range = {std::min(range.low, value), std::max(range.high, value)};
+  return range;
+}
+
+// About seven round numbers around the values: steps of 1, 2 or 5 times a power of ten.
+void set_ticks(vtkAxis* axis, const Interval& range) {
+  constexpr double most_ticks = 8.0;
+  const double width = std::max(range.high - range.low, 1e-3 * std::abs(range.high) + 1e-300);
+  const double power = std::pow(10.0, std::floor(std::log10(width / most_ticks)));
+  double step = power;
+  for (const double factor : {2.0, 5.0, 10.0})
+    if (width / step > most_ticks) step = factor * power;
+  const double first = std::floor(range.low / step), last = std::ceil(range.high / step);
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (double i = first; i <= last; ++i) {
+    positions->InsertNextValue(i * step);
+    labels->InsertNextValue(fmt::format("{:.6g}", i * step));
+  }
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetRange(first * step, last * step);
+  axis->SetCustomTickPositions(positions, labels);
+}
+
+void set_axis(vtkAxis* axis, const std::string& label, const Interval& range) {
+  set_ticks(axis, range);
   axis->SetTitle(label);
   axis->GetTitleProperties()->SetFontSize(enlargement * text_size);
   axis->GetTitleProperties()->SetBold(false);
@@ -72,14 +111,17 @@ void set_axis(vtkAxis* axis, const std::string& label) {
 std::string png_of_plot(const PlotInput& input) {
   use_one_vtk_thread();
   vtkNew<vtkChartXY> chart;
+  constexpr float right_margin = 30.0F * enlargement;  // for half of the last number
+  chart->SetAutoSize(false);
+  chart->SetSize(vtkRectf(0.0F, 0.0F, enlargement * plot_width - right_margin, enlargement * plot_height));
   chart->SetTitle(input.title);
   chart->GetTitleProperties()->SetFontSize(enlargement * (text_size + 4));
   chart->SetShowLegend(input.series.size() > 1);
   chart->GetLegend()->SetLabelSize(enlargement * (text_size - 4));
   chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
   for (std::size_t i = 0; i < input.series.size(); ++i) add_series(chart, input.series[i], i);
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), input.x_label);
-  set_axis(chart->GetAxis(vtkAxis::LEFT), input.y_label);
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), input.x_label, range_of(input, &PlotSeries::x));
+  set_axis(chart->GetAxis(vtkAxis::LEFT), input.y_label, range_of(input, &PlotSeries::y));
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);
   vtkNew<vtkRenderer> page;

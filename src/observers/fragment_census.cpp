@@ -85,13 +85,16 @@ Rebound rebound(const Simulation& s) {
 MomentumErrors momentum_errors(const Simulation& s, double radius) {
   const Momentum& start = s.reference.start;
   const Momentum now = momentum(s.nodes);
-  Vec3 linear = now.linear - start.linear - s.totals.added_linear;
-  Vec3 angular = now.angular - start.angular - s.totals.added_angular - pending_angular_momentum(s.cracks);
+  Vec3 linear = now.linear - start.linear - s.totals.added_linear - s.totals.gravity.linear;
+  Vec3 angular = now.angular - start.angular - s.totals.added_angular - s.totals.gravity.angular -
+                 pending_angular_momentum(s.cracks);
   for (const Tool& tool : s.tools) {
     linear -= tool.state.impulse;
     angular -= tool.state.angular_impulse;
   }
-  const double incident = start.linear.norm();
+  double incident = start.linear.norm();
+  for (const Tool& tool : s.tools)
+    if (start.linear.norm() == 0.0) incident = std::max(incident, tool.state.impulse.norm());
   return {ratio(linear.norm(), incident), ratio(angular.norm(), std::max(incident * radius, start.angular.norm()))};
 }
 

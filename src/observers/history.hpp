@@ -12,7 +12,7 @@ class History : public Observer {
   /// Starts the file anew. `interval` is raised to a multiple of `ledger_interval`.
   History(std::filesystem::path path, std::int64_t interval, std::int64_t ledger_interval);
   /// Goes on after the regular rows up to `step`; those behind it, and the last row of a session that ended there, go.
-  void resume(std::int64_t step);
+  void resume(std::int64_t step, std::size_t num_tools);
 
   void look(const Simulation& s) override;
   /// A row off the regular ones: the last of a session.
@@ -26,8 +26,8 @@ class History : public Observer {
   std::int64_t interval_;
   std::optional<CsvTable> table_;
   std::int64_t last_step_ = -1;
-  double last_time_ = 0.0;            ///< of the row before [s]
-  Vec3 last_impulse_ = Vec3::Zero();  ///< of the wall, in the row before [N s]
+  double last_time_ = 0.0;       ///< of the row before [s]
+  std::vector<Vec3> last_sums_;  ///< impulse and moment of each tool, in the row before [N s, N m s]
 };
 
 }  // namespace knap

@@ -64,7 +64,8 @@ VtkGrid particle_grid(const Simulation& s, const Relabel& relabel) {
     return relabel(fragment_labels(s.topology, s.cracks, label), s.reference.tet_volume);
   };
   grid.cell_int_fields = {{"fragment", 1, labels(FragmentLabel::Damage)},
-                          {"fragment_strict", 1, labels(FragmentLabel::Strict)}};
+                          {"fragment_strict", 1, labels(FragmentLabel::Strict)},
+                          {"particle", 1, s.reference.particle_of_tet}};
   grid.cell_fields = {{"damage [-]", 1, tet_damage(s)}};
   add_stress(grid, stress_now(s));
   return grid;

@@ -5,7 +5,7 @@
 
 namespace knap {
 
-/// frames/*.vtu and cracks/*.vtu with their .pvd, every `interval` steps and at the end.
+/// frames/*.vtu, cracks/*.vtu and tools/*.vtu with their .pvd, every `interval` steps and at the end.
 class VtkFrames : public Observer {
  public:
   VtkFrames(const std::filesystem::path& run, std::int64_t interval, Relabel relabel);
@@ -16,6 +16,7 @@ class VtkFrames : public Observer {
  private:
   FrameSeries particle_;
   FrameSeries cracks_;
+  FrameSeries tools_;
   Relabel relabel_;
 };
 

@@ -34,7 +34,7 @@ inline TetMesh box_mesh(const Vec3& length, const std::array<Index, 3>& n) {
 struct MovingMesh {
   Topology topology;
   std::vector<Vec4> x, v;
-  std::vector<double> tet_volumes;
+  std::vector<double> tet_volumes, densities;
   std::vector<Index> label;
 
   explicit MovingMesh(const TetMesh& mesh) : topology(make_topology(mesh)) {
@@ -44,14 +44,15 @@ struct MovingMesh {
     label.assign(at(mesh.num_tets()), 0);
   }
 
-  FragmentInput input(double density = 1.0) const {
+  FragmentInput input(double density = 1.0) {
+    densities = {density};
     return {.tet_nodes = topology.tet_nodes,
             .tet_facets = topology.tet_facets,
             .facet_tets = topology.facet_tets,
             .x = x,
             .v = v,
             .tet_volume = tet_volumes,
-            .density = density,
+            .densities = densities,
             .label = label};
   }
   Vec3 tet_centre(Index tet) const {

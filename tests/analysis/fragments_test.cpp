@@ -28,7 +28,7 @@ void spin(MovingMesh& mesh, const Vec3& centre, const Vec3& velocity, const Vec3
     mesh.v[i] = padded(velocity + spin.cross(Vec3(xyz(mesh.x[i])) - centre));
 }
 
-Fragment only_fragment(const MovingMesh& mesh, double density = 1.0) {
+Fragment only_fragment(MovingMesh mesh, double density = 1.0) {
   const auto fragments = find_fragments(mesh.input(density));
   EXPECT_EQ(fragments.size(), 1u);
   return fragments.at(0);

@@ -45,6 +45,7 @@ void expect_keys(const json& report) {
                               "/energy/tool_friction",
                               "/energy/tool_impact",
                               "/energy/viscous",
+                              "/energy/rigid_vibration",
                               "/energy/mass_scaling",
                               "/energy/tool_work",
                               "/momentum/linear_error",
@@ -60,7 +61,7 @@ void expect_keys(const json& report) {
                               "/performance/tet_updates_per_s",
                               "/performance/threads",
                               "/performance/phases",
-                              "/wall/max_force",
+                              "/tools/0/max_force",
                               "/sanity/critical_speed",
                               "/units"})
     EXPECT_TRUE(report.contains(json::json_pointer(pointer))) << pointer;
@@ -152,7 +153,7 @@ TEST_F(Run, ElasticParticleStopsByItselfAfterItsRebound) {
 TEST_F(Run, ASlowParticleReachesTheWall) {
   write("slow.toml", elastic_case);
   ASSERT_EQ(run({"run", "slow.toml", "--quiet", "--out", "s", "--set", "impact.angle=0.01 deg"}).code, 0);
-  EXPECT_GT(report("s")["wall"]["max_force"].get<double>(), 0.0);
+  EXPECT_GT(report("s")["tools"][0]["max_force"].get<double>(), 0.0);
   const Ended early =
       run({"run", "slow.toml", "--quiet", "--out", "e", "--set", "impact.angle=0.01 deg", "--set", "run.end_time=1us"});
   EXPECT_THAT(early.err, HasSubstr("had not reached the wall"));

@@ -13,11 +13,11 @@ namespace knap {
 namespace {
 
 Simulation block(const std::array<Index, 3>& cells) {
-  SimulationOptions options{.young_modulus = 1e9, .poisson_ratio = 0.2, .density = 1000.0};
-  options.fracture = FractureOptions{.strength = 1e6, .fracture_energy = 10.0};
-  options.velocity = {3.0, -2.0, 1.0};
-  options.spin = {100.0, 50.0, -30.0};
-  return make_simulation(options, bar_mesh(cells, 1e-3));
+  ParticleOptions particle{.young_modulus = 1e9, .poisson_ratio = 0.2, .density = 1000.0};
+  particle.fracture = FractureOptions{.strength = 1e6, .fracture_energy = 10.0};
+  particle.velocity = {3.0, -2.0, 1.0};
+  particle.spin = {100.0, 50.0, -30.0};
+  return make_simulation({.particles = {particle}}, bar_mesh(cells, 1e-3));
 }
 
 InsertionOptions insertion_options(const Simulation& s) {

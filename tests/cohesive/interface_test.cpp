@@ -22,9 +22,10 @@ struct Interface {
 
 // A bar of `cells` x 1 x 1 cells under stress `overload` x strength, cracked at its middle.
 Interface parted_bar(Index cells, double length, double overload, const Vec3& direction) {
-  SimulationOptions options{.young_modulus = modulus, .poisson_ratio = 0.0, .density = density};
-  options.fracture = FractureOptions{.strength = 1e3 * strength, .fracture_energy = fracture_energy};
-  options.insertion_interval = 1 << 30;  // only what is opened here
+  ParticleOptions particle{.young_modulus = modulus, .poisson_ratio = 0.0, .density = density};
+  particle.fracture = FractureOptions{.strength = 1e3 * strength, .fracture_energy = fracture_energy};
+  // Only what is opened here.
+  const SimulationOptions options{.particles = {particle}, .insertion_interval = 1 << 30};
   Interface bar{make_simulation(options, bar_mesh({cells, 1, 1}, length / cells)), 0.0, 0.0};
   Simulation& s = bar.s;
   s.clock.step = 1;
@@ -92,7 +93,7 @@ TEST(Interface, DissipatesTheFractureEnergy) {
   while (s.clock.time() < end) ASSERT_EQ(step(s), StepStatus::Ok);
   for (const CrackRecord& record : s.cracks.records) ASSERT_EQ(record.regime, RecordRegime::Failed);
   const CrackEnergies energies =
-      crack_energies(s.cracks, s.nodes, {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps});
+      crack_energies(s.cracks, s.nodes, {s.reference.laws, s.clock.dt, s.options.impulse_sweeps});
   double area = 0.0;
   for (const CrackFace& face : s.cracks.faces) area += face.area;
   EXPECT_NEAR(energies.losses.cohesive / (fracture_energy * area), 1.0, 0.005);  // the step's share of the opening

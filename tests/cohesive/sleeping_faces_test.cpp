@@ -15,7 +15,7 @@ namespace knap {
 namespace {
 
 VertexImpulseOptions impulse_options(const Simulation& s) {
-  return {s.options.fracture->law, s.clock.dt, s.options.impulse_sweeps};
+  return {s.reference.laws, s.clock.dt, s.options.impulse_sweeps};
 }
 
 // A box in the midst of breaking, with records in every regime.
@@ -171,7 +171,7 @@ TEST(SleepingFaces, NoCrackBesideASleepingTet) {
   const auto overloaded = [&] {
     update_stress(s.elastic, s.nodes.x);
     return overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound},
-                             s.reference.facet_strength, s.options.fracture->law);
+                             s.reference.facet_strength, {s.reference.laws, {}});
   };
   const auto all = overloaded();
   std::vector<Index> active;

@@ -36,7 +36,10 @@ struct Scene {
   Topology topology;
   NodalState nodes;
   CrackState cracks;
-  VertexImpulseOptions options;
+  std::vector<CohesiveLaw> laws;
+  int sweeps = 2;
+
+  VertexImpulseOptions options() const { return {laws, time_step, sweeps}; }
 };
 
 // A few vertices are hubs of many nodes and records, most have a handful, some none.
@@ -138,7 +141,8 @@ void add_random_cracks(Scene& scene, Dice& dice) {
 Scene random_scene(std::uint64_t seed, const CohesiveLaw& law, int sweeps = 2) {
   Dice dice{seed};
   Scene scene;
-  scene.options = {law, time_step, sweeps};
+  scene.laws = {law};
+  scene.sweeps = sweeps;
   add_stars(scene, dice);
   add_random_cracks(scene, dice);
   return scene;
@@ -167,9 +171,9 @@ std::vector<Vec3> three(const std::vector<Vec4>& field) {
 
 plain::State plain_state(const Scene& scene) {
   const CrackState& cracks = scene.cracks;
-  plain::State s{.dt = scene.options.dt,
-                 .sweeps = scene.options.sweeps,
-                 .law = scene.options.law,
+  plain::State s{.dt = time_step,
+                 .sweeps = scene.sweeps,
+                 .law = scene.laws.front(),
                  .faces = {},
                  .records_of_vertex = {},
                  .x = three(scene.nodes.x),
@@ -264,12 +268,12 @@ void expect_step_as_plain(Scene scene) {
   const Scene before = scene;
   plain::State expected = plain_state(scene);
   plain::apply_impulses(expected);
-  apply_vertex_impulses(scene.cracks, scene.nodes, scene.options);
+  apply_vertex_impulses(scene.cracks, scene.nodes, scene.options());
   expect_same(before, scene, expected);
   const auto pushed = push_some_nodes(scene.nodes);
   expected.v = three(scene.nodes.v);
   plain::settle(expected, vertices_of(scene.topology, pushed));
-  settle_crack_losses(scene.cracks, scene.topology, scene.nodes, pushed, scene.options);
+  settle_crack_losses(scene.cracks, scene.topology, scene.nodes, pushed, scene.options());
   expect_same(before, scene, expected);
 }
 
@@ -304,11 +308,39 @@ TEST_P(VertexKernel, DamagesNothingThatHasNotOpened) {
   for (Index i = 0; i < scene.nodes.size(); ++i)
     xyz(scene.nodes.x[at(i)]) = scene.topology.vertex_of_node[at(i)] * Vec3(1e-5, 0.0, 0.0);
   const plain::State before = plain_state(scene);
-  apply_vertex_impulses(scene.cracks, scene.nodes, scene.options);
+  apply_vertex_impulses(scene.cracks, scene.nodes, scene.options());
   const plain::State after = plain_state(scene);
   for (std::size_t vertex = 0; vertex < num_vertices; ++vertex)
     for (std::size_t i = 0; i < after.records_of_vertex[vertex].size(); ++i)
       EXPECT_EQ(after.records_of_vertex[vertex][i].d_max, before.records_of_vertex[vertex][i].d_max);
+}
+
+// Two particles: the vertices of each do what they do where all have its law.
+TEST_P(VertexKernel, GivesEachParticleItsLaw) {
+  constexpr Index first_of_second = 211;  // in the middle of a group
+  const auto after_step = [](const std::vector<CohesiveLaw>& of_particles) {
+    Scene scene = random_scene(6, of_particles.front());
+    scene.laws = of_particles;
+    scene.cracks.first_vertices = {0, first_of_second};
+    group_records(scene.cracks);
+    apply_vertex_impulses(scene.cracks, scene.nodes, scene.options());
+    const auto pushed = push_some_nodes(scene.nodes);
+    settle_crack_losses(scene.cracks, scene.topology, scene.nodes, pushed, scene.options());
+    return scene;
+  };
+  const CohesiveLaw one = laws()[0], other = laws()[2];
+  const Scene both = after_step({one, other}), ones = after_step({one, one}), others = after_step({other, other});
+  for (std::size_t i = 0; i < both.nodes.v.size(); ++i) {
+    const Scene& same = both.topology.vertex_of_node[i] < first_of_second ? ones : others;
+    ASSERT_EQ(both.nodes.v[i], same.nodes.v[i]) << i;
+  }
+  for (Index v = 0; v < both.topology.num_vertices(); ++v) {
+    const Scene& same = v < first_of_second ? ones : others;
+    ASSERT_EQ(both.cracks.losses_of_vertex[at(v)].friction, same.cracks.losses_of_vertex[at(v)].friction) << v;
+    ASSERT_EQ(both.cracks.losses_of_vertex[at(v)].cohesive, same.cracks.losses_of_vertex[at(v)].cohesive) << v;
+  }
+  EXPECT_NE(crack_energies(ones.cracks, ones.nodes, ones.options()).losses.friction,
+            crack_energies(others.cracks, others.nodes, others.options()).losses.friction);
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryTarget, VertexKernel, testing::ValuesIn(vector_targets()),
@@ -347,9 +379,9 @@ std::vector<std::uint64_t> bits_after_step(const std::string& target, int thread
   use_vector_target(target);
   set_num_threads(threads);
   Scene scene = random_scene(5, laws()[2]);
-  apply_vertex_impulses(scene.cracks, scene.nodes, scene.options);
+  apply_vertex_impulses(scene.cracks, scene.nodes, scene.options());
   const auto pushed = push_some_nodes(scene.nodes);
-  settle_crack_losses(scene.cracks, scene.topology, scene.nodes, pushed, scene.options);
+  settle_crack_losses(scene.cracks, scene.topology, scene.nodes, pushed, scene.options());
   set_num_threads(0);
   use_vector_target("");
   const plain::State s = plain_state(scene);

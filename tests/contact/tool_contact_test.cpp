@@ -22,7 +22,7 @@ NodalState one_node(const Vec3& x, const Vec3& v) {
 // One step of tools made just before it; the nodes are not moved.
 std::vector<Tool> act(const std::vector<ToolOptions>& options, NodalState& nodes) {
   std::vector<Tool> tools = make_tools(options, dt);
-  aim_tools(tools, options, 0.0, dt);
+  aim_tools(tools, options, Vec3::Zero(), 0.0, dt);
   apply_tools(tools, nodes, {.dt = dt, .tolerance = 1e-9});
   return tools;
 }
@@ -94,7 +94,7 @@ TEST(ToolContact, RidingOnAnAcceleratingWallLosesNothing) {
   NodalState nodes = one_node({0, 0, 0}, {0, 0, 0});
   for (int n = 0; n < 50; ++n) {
     kick(nodes, dt);
-    aim_tools(tools, std::vector{options}, n * dt, dt);
+    aim_tools(tools, std::vector{options}, Vec3::Zero(), n * dt, dt);
     apply_tools(tools, nodes, {.dt = dt, .step = n, .tolerance = 1e-9});
     drift(nodes, dt);
     move_tools(tools);

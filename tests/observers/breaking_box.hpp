@@ -12,13 +12,13 @@ namespace knap {
 inline Simulation breaking_box(double viscous_ratio = 0.0) {
   TetMesh mesh = bar_mesh({4, 4, 4}, 0.25e-3);
   for (Vec3& x : mesh.vertices) x = Vec3(x.x(), x.y(), x.z() + 1e-7);
-  SimulationOptions options{
-      .young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0, .fracture = std::nullopt};
-  options.fracture = FractureOptions{.law = {}, .strength = 8.34e6, .fracture_energy = 8.6};
+  ParticleOptions particle{.young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0};
+  particle.fracture = FractureOptions{.law = {}, .strength = 8.34e6, .fracture_energy = 8.6};
+  particle.velocity = Vec3(5.0, 0.0, -30.0);
+  particle.viscous_ratio = viscous_ratio;
+  particle.relaxation_time = 2e-6;
+  SimulationOptions options{.particles = {particle}};
   options.tools = {wall(0.3)};
-  options.velocity = Vec3(5.0, 0.0, -30.0);
-  options.viscous_ratio = viscous_ratio;
-  options.relaxation_time = 2e-6;
   return make_simulation(options, mesh);
 }
 

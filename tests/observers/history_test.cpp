@@ -43,6 +43,31 @@ TEST_F(HistoryTest, WallForceTimesIntervalIsTheImpulse) {
   EXPECT_NEAR(impulse, table.column("wall_impulse_z [N s]").back(), 1e-12 * impulse);
 }
 
+TEST_F(HistoryTest, EachToolHasItsColumns) {
+  Simulation s = breaking_box();
+  ToolOptions platen = wall(0.2, Vec3(0, 0, 1.0001e-3), -Vec3::UnitZ());
+  platen.name = "upper";
+  platen.motion = ConstantVelocity{Vec3(0.0, 0.0, -35.0)};
+  s.options.tools.push_back(platen);
+  s.tools = make_tools(s.options.tools, s.clock.dt);
+  History history(folder / "history.csv", 24, s.options.ledger_interval);
+  advance_and_look(s, history, 150);
+  history.add_last_row(s);
+  const CsvColumns table = read_csv(folder / "history.csv");
+  const auto& time = table.column("time [s]");
+  double impulse = 0.0, moment = 0.0;
+  for (std::size_t i = 1; i < time.size(); ++i) {
+    impulse += table.column("upper_force_z [N]")[i] * (time[i] - time[i - 1]);
+    moment += table.column("upper_torque_x [N m]")[i] * (time[i] - time[i - 1]);
+    EXPECT_NEAR(table.column("upper_displacement_z [m]")[i], -35.0 * time[i], 1e-12);
+  }
+  EXPECT_LT(impulse, 0.0);
+  EXPECT_NEAR(impulse, s.tools[1].state.impulse.z(), 1e-9 * std::abs(impulse));
+  EXPECT_NEAR(moment, s.tools[1].state.moment.x(), 1e-9 * std::abs(moment));
+  EXPECT_DOUBLE_EQ(table.column("upper_work [J]").back(), s.tools[1].state.work);
+  EXPECT_EQ(std::count(table.header.begin(), table.header.end(), "wall_work [J]"), 0);
+}
+
 TEST_F(HistoryTest, ResumedFileIsTheOneOfARunWithoutABreak) {
   Simulation whole = breaking_box();
   History one(folder / "whole.csv", 24, 24);
@@ -58,7 +83,7 @@ TEST_F(HistoryTest, ResumedFileIsTheOneOfARunWithoutABreak) {
   }
   std::filesystem::resize_file(folder / "parts.csv", std::filesystem::file_size(folder / "parts.csv") - 20);
   History second(folder / "parts.csv", 24, 24);
-  second.resume(s.clock.step);
+  second.resume(s.clock.step, s.tools.size());
   advance_and_look(s, second, 120);
   const auto a = read_csv(folder / "whole.csv");
   const auto b = read_csv(folder / "parts.csv");
@@ -69,7 +94,7 @@ TEST_F(HistoryTest, ResumedFileIsTheOneOfARunWithoutABreak) {
 TEST_F(HistoryTest, ResumeWithoutAFileStartsOne) {
   Simulation s = breaking_box();
   History history(folder / "history.csv", 24, 24);
-  history.resume(0);
+  history.resume(0, s.tools.size());
   history.look(s);
   EXPECT_EQ(read_csv(folder / "history.csv").column("step").size(), 1u);
 }

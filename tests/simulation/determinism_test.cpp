@@ -10,11 +10,11 @@ namespace {
 
 Simulation breaking_granule(double viscous_ratio = 0.0) {
   Granule granule{.element_size = 0.2e-3, .contact_element_size = 0.15e-3};
-  granule.options.fracture = zeolite_fracture();
+  granule.particle.fracture = zeolite_fracture();
   granule.options.tools = {wall(0.3)};
-  granule.options.velocity = {10.0, 0.0, -28.0};
-  granule.options.viscous_ratio = viscous_ratio;
-  granule.options.relaxation_time = 2e-6;
+  granule.particle.velocity = {10.0, 0.0, -28.0};
+  granule.particle.viscous_ratio = viscous_ratio;
+  granule.particle.relaxation_time = 2e-6;
   return make_granule(granule);
 }
 

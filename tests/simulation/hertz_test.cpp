@@ -25,12 +25,12 @@ ImpactOverHertz impact_of_tets(double group) {
                   .element_size = 0.14 * radius,
                   .contact_element_size = 0.2 * contact_radius,
                   .contact_extent = 2.4 * contact_radius};
-  const double reduced = granule.options.young_modulus / (1.0 - poisson_ratio * poisson_ratio);
-  const double speed = std::sqrt(group * reduced / granule.options.density);
-  granule.options.poisson_ratio = poisson_ratio;
+  const double reduced = granule.particle.young_modulus / (1.0 - poisson_ratio * poisson_ratio);
+  const double speed = std::sqrt(group * reduced / granule.particle.density);
+  granule.particle.poisson_ratio = poisson_ratio;
   granule.options.tools = {wall()};
   granule.options.step_safety = 0.8;
-  granule.options.velocity = {0.0, 0.0, -speed};
+  granule.particle.velocity = {0.0, 0.0, -speed};
   Simulation s = make_granule(granule);
   const double mass = s.reference.start.mass;
   const double approach = std::pow(15.0 * mass * speed * speed / (16.0 * reduced * std::sqrt(radius)), 0.4);

@@ -13,11 +13,11 @@ namespace {
 // A free particle that flies apart by its own spin: the rim's 100 m/s put several MPa on a strength of 1 MPa.
 TEST(Momentum, KeptByAnIsolatedBreakingSpinner) {
   Granule granule{.element_size = 0.2e-3, .contact_element_size = 0.2e-3};
-  granule.options.fracture = zeolite_fracture();
-  granule.options.fracture->strength = 1e6;
-  granule.options.fracture->fracture_energy = 0.5;
-  granule.options.velocity = {5.0, 0.0, 3.0};
-  granule.options.spin = {0.0, 1.3e5, 2e4};
+  granule.particle.fracture = zeolite_fracture();
+  granule.particle.fracture->strength = 1e6;
+  granule.particle.fracture->fracture_energy = 0.5;
+  granule.particle.velocity = {5.0, 0.0, 3.0};
+  granule.particle.spin = {0.0, 1.3e5, 2e4};
   Simulation s = make_granule(granule);
   for (int i = 0; i < 1500; ++i) ASSERT_EQ(step(s), StepStatus::Ok);
   EXPECT_GT(num_fragments(fragment_labels(s.topology, s.cracks, FragmentLabel::Strict)), 10);
@@ -47,9 +47,9 @@ TEST(Momentum, FrictionlessObliqueImpactIsTheNormalImpact) {
   const double speed = 20.0;
   const auto impact = [&](double tangential) {
     Granule granule{.element_size = 0.2e-3, .contact_element_size = 0.12e-3};
-    granule.options.fracture = zeolite_fracture();
+    granule.particle.fracture = zeolite_fracture();
     granule.options.tools = {wall()};
-    granule.options.velocity = {tangential, 0.0, -speed};
+    granule.particle.velocity = {tangential, 0.0, -speed};
     return make_granule(granule);
   };
   Simulation normal = impact(0.0), oblique = impact(speed), twin = impact(0.0);

@@ -20,8 +20,8 @@ TEST(PhaseTimes, StartAtZeroWhateverWasInMemory) {
 }
 
 TEST(PhaseTimes, MotionTakesSome) {
-  Simulation s =
-      make_simulation({.young_modulus = 1e9, .poisson_ratio = 0.2, .density = 1000.0}, bar_mesh({4, 4, 4}, 1e-3));
+  Simulation s = make_simulation({.particles = {{.young_modulus = 1e9, .poisson_ratio = 0.2, .density = 1000.0}}},
+                                 bar_mesh({4, 4, 4}, 1e-3));
   for (int i = 0; i < 10; ++i) ASSERT_EQ(step(s), StepStatus::Ok);
   EXPECT_GT(s.phase_times[static_cast<std::size_t>(Phase::Motion)], 0.0);
   EXPECT_GT(s.phase_times[static_cast<std::size_t>(Phase::BulkForces)], 0.0);

@@ -10,7 +10,8 @@ struct Granule {
   double element_size = 0.15e-3;
   double contact_element_size = 0.15e-3;
   double contact_extent = 0.3e-3;
-  SimulationOptions options{.young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0};
+  ParticleOptions particle{.young_modulus = 2.45e9, .poisson_ratio = 0.25, .density = 1270.0};
+  SimulationOptions options{};  ///< all but the particle
 };
 
 inline FractureOptions zeolite_fracture() {
@@ -35,7 +36,9 @@ inline TetMesh granule_mesh(const Granule& granule) {
 }
 
 inline Simulation make_granule(const Granule& granule) {
-  return make_simulation(granule.options, granule_mesh(granule));
+  SimulationOptions options = granule.options;
+  options.particles = {granule.particle};
+  return make_simulation(options, granule_mesh(granule));
 }
 
 }  // namespace knap
