@@ -62,7 +62,8 @@ void note_approaches(Simulation& s) {
 
 bool must_wake(const Simulation& s, Index b) {
   const RigidBody& body = s.rigid.bodies[at(b)];
-  if (is_near_edged_tool(s, s.rigid.nodes_of_body[b], body, steps_ahead * s.clock.dt * fastest_against_tools(body, s.tools)))
+  if (is_near_edged_tool(s, s.rigid.nodes_of_body[b], body,
+                         steps_ahead * s.clock.dt * fastest_against_tools(body, s.tools)))
     return true;
   if (!body.can_break()) return false;
   const RigidFragmentOptions& options = s.options.rigid_fragments;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cohesive/fragments.hpp"
 #include "cohesive/insertion.hpp"
 #include "cohesive/strength_field.hpp"
 #include "contact/initial_overlap.hpp"
@@ -194,7 +195,8 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   s.elastic = make_elastic_force(s.topology, all.vertices, materials, s.reference.particle_of_tet);
 
   s.cracks = make_crack_state(s.topology, first_vertices(meshes));
-  s.contact.fragment_of_tet.assign(all.tets.size(), 0);
+  s.contact.fragment_of_tet = fragment_labels(s.topology, s.cracks, FragmentLabel::Strict);
+  s.contact.fragments = num_fragments(s.contact.fragment_of_tet);
   s.contact.skin = skin_over_edge * s.reference.mean_edge;
 
   s.tools = make_tools(options.tools, s.clock.dt);

@@ -151,14 +151,17 @@ bool may_freeze(const Simulation& s, const QuietFragment& fragment) {
          fragment.vibration <= options.vibration_share * limit;
 }
 
-// A particle that cannot break has vibrations that never end in cracks: it is computed as long as it moves.
-bool can_break(const Simulation& s, std::span<const Index> tets) {
-  return s.options.particles[at(s.reference.particle_of_tet[at(tets[0])])].fracture.has_value();
+// A particle that is still whole is computed as long as it moves: its rebound is elastic, whatever its speed.
+bool is_a_piece(const Simulation& s, std::span<const Index> tets) {
+  const auto& label = s.contact.fragment_of_tet;
+  for (const Index tet : tets)
+    for (const Index facet : s.topology.tet_facets[at(tet)])
+      if (facet != none && label[at(other_side(s.topology, facet, tet))] != label[at(tet)]) return true;
+  return false;
 }
 
 std::optional<QuietFragment> quiet_fragment(const Simulation& s, std::span<const Index> tets) {
-  if (!can_break(s, tets)) return std::nullopt;
-  if (s.rigid.of_tet(tets[0]) != none) return std::nullopt;
+  if (s.rigid.of_tet(tets[0]) != none || !(s.options.rigid_fragments.whole || is_a_piece(s, tets))) return std::nullopt;
   const bool is_loose = has_come_loose(s, tets);
   if (!(is_loose && weakest_facet(s, tets) == RigidBody::unbreakable) && !is_quiet(s, tets)) return std::nullopt;
   QuietFragment fragment{{tets.begin(), tets.end()}, nodes_of(s.topology, tets), {}, 0.0, is_loose};

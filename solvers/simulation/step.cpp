@@ -145,13 +145,13 @@ bool look_for_new_fragments(Simulation& s) {
   s.contact.fragment_of_tet = std::move(labels);
   const Index handed_over = hand_over_faces(s.cracks, s.topology, s.nodes.x, s.contact.fragment_of_tet,
                                             {.lets_go = s.freezing.lets_go, .facet_size = s.reference.facet_size});
-  if (!changed && handed_over == 0) return false;
+  if (!changed && handed_over == 0 && !s.contact.margin.empty()) return false;
   rebuild_contact_candidates(s);
   return true;
 }
 
 void detect_contacts(Simulation& s) {
-  if (s.options.particles.size() == 1 && s.totals.inserted_facets == 0) return;  // in one piece
+  if (s.contact.fragments < 2 && s.totals.inserted_facets == 0) return;  // in one piece
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
   const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;

@@ -12,9 +12,9 @@ namespace {
 // A granule in the middle of its impact, where failed faces between fragments still meet.
 Simulation breaking_granule() {
   Granule granule{.element_size = 0.2e-3, .contact_element_size = 0.15e-3};
-  granule.options.fracture = zeolite_fracture();
+  granule.particle.fracture = zeolite_fracture();
   granule.options.tools.push_back(wall(0.1));
-  granule.options.velocity = {0.0, 0.0, -28.0};
+  granule.particle.velocity = {0.0, 0.0, -28.0};
   Simulation s = make_granule(granule);
   for (int i = 0; i < 300; ++i) EXPECT_EQ(step(s), StepStatus::Ok);
   s.contact.fragment_of_tet = fragment_labels(s.topology, s.cracks, FragmentLabel::Strict);

@@ -57,7 +57,7 @@ TEST(AutomaticStop, ComesTenCrossingsAfterTheLastDamageThoughThePieceVibrates) {
 Simulation elastic_granule() {
   Granule granule{.element_size = 0.3e-3, .contact_element_size = 0.2e-3};
   granule.options.tools = {wall(0.0)};
-  granule.options.velocity = {0.0, 0.0, -5.0};
+  granule.particle.velocity = {0.0, 0.0, -5.0};
   Simulation s = make_granule(granule);
   s.totals.inserted_facets = 1;
   return s;
