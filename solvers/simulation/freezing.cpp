@@ -4,6 +4,7 @@
 
 #include "cohesive/crack_faces.hpp"
 #include "cohesive/sleeping_faces.hpp"
+#include "contact/contact_pairs.hpp"
 #include "fem/sleeping_tets.hpp"
 #include "simulation/quiet_fragments.hpp"
 #include "simulation/step.hpp"
