@@ -20,6 +20,10 @@ constexpr double gap_tolerance = 1e-12;
 constexpr double smallest_spring = 1e-8;
 constexpr double largest_spring = 1e-3;
 constexpr int most_iterations = 60;
+// A body that may roll must come to rest this soon, or it is kept from rolling.
+constexpr int most_rolling_iterations = 15;
+// Of the approach, to measure rates of change.
+constexpr double rate_step = 1e-3;
 // Stiffness of a sticking node's hold on the platen over its own in the body.
 constexpr double hold_ratio = 3.0;
 // By how much a step must lower the slope of the potential along it, and how often that is tried.
@@ -76,6 +80,7 @@ EquilibriumSolver::EquilibriumSolver(const LoadedBody& body, const std::array<Pl
   free_approach_ = std::max(0.0, free_approach_);
   lift_ = platens[0].share * free_approach_ - below;
   update_stiffness(stiffness_, body.topology, body.reference_positions, material_, x);
+  may_roll_ = is_frictionless();
   mean_stiffness_ = stiffness_.diagonal().mean();
   for (Index i = 0; i < to_index(x.size()); ++i)
     hold_.push_back(hold_ratio * stiffness_.diagonal().segment<3>(3 * i).mean());
@@ -162,16 +167,17 @@ LinearConstraints EquilibriumSolver::constraints(const LoadState& state) const {
     volume += volume_[at(i)];
   }
   centre /= volume;
-  Eigen::MatrixXd momenta(stiffness_.cols(), 5);  // two linear, three angular, as functions of the step
+  // Two linear momenta and the angular ones, as functions of the step: first that about the platens' axis.
+  Eigen::MatrixXd momenta(stiffness_.cols(), Eigen::Index{may_roll_ ? 3 : 5});
   for (Index i = 0; i < to_index(state.x.size()); ++i) {
     const Vec3 arm = xyz(state.x[at(i)]) - centre;
     momenta.block<3, 2>(3 * i, 0) = volume_[at(i)] * Mat3::Identity().leftCols<2>();
-    for (int axis = 0; axis < 3; ++axis)
-      momenta.block<3, 1>(3 * i, 2 + axis) = volume_[at(i)] * Vec3::Unit(axis).cross(arm);
+    for (int k = 2; k < momenta.cols(); ++k)
+      momenta.block<3, 1>(3 * i, k) = volume_[at(i)] * Vec3::Unit(4 - k).cross(arm);
   }
   momenta.array().colwise() *= constraints.is_free.array();
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(momenta.colwise().normalized());
-  constraints.still = qr.householderQ() * Eigen::MatrixXd::Identity(stiffness_.cols(), 5);
+  constraints.still = qr.householderQ() * Eigen::MatrixXd::Identity(stiffness_.cols(), momenta.cols());
   return constraints;
 }
 
@@ -185,6 +191,7 @@ bool EquilibriumSolver::solve_linear(const LinearConstraints& constraints, const
     added = spring;
     d = prescribed;
     if (linear_.solve(stiffness_, constraints, right, d)) return true;
+    if (may_roll_) return false;
   }
   return false;
 }
@@ -289,6 +296,15 @@ bool EquilibriumSolver::update_contacts(LoadState& state) {
 }
 
 bool EquilibriumSolver::solve(LoadState& state, double approach) {
+  if (may_roll_) {
+    LoadState rolled = state;
+    may_roll_ = find_rest(rolled, approach, most_rolling_iterations);
+    if (may_roll_) state = std::move(rolled);
+  }
+  return may_roll_ || find_rest(state, approach, most_iterations);
+}
+
+bool EquilibriumSolver::find_rest(LoadState& state, double approach, int most) {
   state.approach = approach;
   iterations_ = 0;
   spring_ = smallest_spring;
@@ -302,7 +318,7 @@ bool EquilibriumSolver::solve(LoadState& state, double approach) {
     for (Index i = 0; i < to_index(state.x.size()); ++i) touch(state, i);
   update_elastic_forces(elastic_, state.x, f_, 0.0);
   for (bool at_rest = false; !at_rest;) {
-    if (++iterations_ > most_iterations || !step(state)) return false;
+    if (++iterations_ > most || !step(state)) return false;
     const bool changed = update_contacts(state);
     const Eigen::VectorXd unbalanced = constraints(state).project(load(state));
     if (!unbalanced.allFinite()) return false;
@@ -315,19 +331,13 @@ bool EquilibriumSolver::solve(LoadState& state, double approach) {
   return force(state) > 0.0;
 }
 
+// By the difference to the equilibrium a little further on: it knows how contacts and friction go on.
 std::vector<Vec4> EquilibriumSolver::rate(const LoadState& state) {
-  spring_ = smallest_spring;
-  update_stiffness(stiffness_, body_.topology, body_.reference_positions, material_, state.x);
-  add_friction_stiffness(state);
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(stiffness_.cols());
-  for (Index i = 0; i < to_index(state.x.size()); ++i) {
-    const PlatenContact& contact = state.contacts[at(i)];
-    if (contact.is_closed) d[3 * i + 2] = direction(contact.platen) * platens_[contact.platen].share;
-  }
-  if (!solve_linear(constraints(state), Eigen::VectorXd::Zero(d.size()), d)) return {};
-  std::vector<Vec4> rate;
-  for (Index i = 0; i < to_index(state.x.size()); ++i) rate.push_back(padded(d.segment<3>(3 * i)));
-  return rate;
+  LoadState next = state;
+  const double further = rate_step * state.approach;
+  if (!solve(next, state.approach + further)) return {};
+  for (std::size_t i = 0; i < next.x.size(); ++i) next.x[i] = (next.x[i] - state.x[i]) / further;
+  return std::move(next.x);
 }
 
 }  // namespace knap

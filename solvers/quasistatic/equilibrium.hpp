@@ -47,11 +47,11 @@ struct LoadState {
 /// pull leave it. Coulomb's friction is integrated over a load step like plasticity, by return to the cone, with a
 /// tangential stiffness that is high against that of the node (Wriggers 2006, Computational Contact Mechanics, 5.2).
 ///
-/// Between frictionless platens nothing holds a body sideways, and a sphere not against rolling either. There every
-/// step of the iteration has no momentum along the platens and no angular momentum: rigid motions appear only where the
-/// deformation asks for them. No force is needed for that unless the platens press past each other, and then it is the
-/// body's own inertia, as in a dynamic run; out_of_line() tells. Elsewhere soft springs act on the steps and vanish
-/// with them.
+/// Between frictionless platens nothing holds a body sideways, or against spinning: there every step of the iteration
+/// has none of these momenta, and no force is needed for that. A body that lies on few nodes, or is round, may be at
+/// rest nowhere before it has rolled far: then it is kept from rolling too, by its own inertia as in a dynamic run; how
+/// far its platens then press past each other out_of_line() tells. With friction soft springs act on the steps where
+/// they must, and vanish with them.
 class EquilibriumSolver {
  public:
   /// The platens must have opposite normals along z: platens[0] is below. Throws InputError if the body does not fit
@@ -62,7 +62,7 @@ class EquilibriumSolver {
   LoadState start() const;
   /// Takes a state to the equilibrium at another approach [m]. False: none was found, the state is spoilt.
   [[nodiscard]] bool solve(LoadState& state, double approach);
-  /// dx/d(approach) by node [-], with the contacts as they are.
+  /// dx/d(approach) by node [-]; empty when the body does not get further.
   std::vector<Vec4> rate(const LoadState& state);
 
   /// Of the state just solved.
@@ -82,6 +82,7 @@ class EquilibriumSolver {
   int factorisations() const { return linear_.factorisations(); }
 
  private:
+  bool find_rest(LoadState& state, double approach, int most);
   bool step(LoadState& state);
   void move(LoadState& state, std::span<const Vec4> from, const Eigen::VectorXd& d, double part);
   void search_line(LoadState& state, std::span<const Vec4> from, const LinearConstraints& constraints,
@@ -109,6 +110,7 @@ class EquilibriumSolver {
   std::vector<double> volume_;   // by node [m3]
   double mean_stiffness_ = 0.0;  // of the diagonal [N/m]
   double spring_ = 0.0;          // over that
+  bool may_roll_ = false;
   bool holds_ = false;  // nodes do not slide yet: a body just touched must find its contacts before it slips away
   int iterations_ = 0;
 };
