@@ -40,7 +40,7 @@ struct RigidFragmentOptions {
   int quiet_steps = 192;           ///< likewise, in steps: the longer of both
   double noticeable_damage = 0.1;  ///< growth of a facet's mean damage that ends the quiet [-]
   double strain_share = 0.5;       ///< largest strain energy of a fragment that freezes [-]
-  double vibration_share = 0.5;    ///< largest kinetic energy beside its rigid motion [-]
+  double vibration_share = 1.0;    ///< largest kinetic energy beside its rigid motion [-]
   double loss_share = 0.01;      ///< all vibrations that freezing may take, over the reference energy of the ledger [-]
   double approach_share = 0.25;  ///< of the critical impact speed: a faster approach wakes a body [-]
   double load_share = 0.3;       ///< of the weakest facet's strength: a larger 0.9 F/d^2 wakes a body [-]
@@ -51,12 +51,12 @@ struct SimulationOptions {
   std::vector<ParticleOptions> particles = std::vector<ParticleOptions>(1);  ///< one for each mesh
   std::vector<ToolOptions> tools{};
   Vec3 gravity = Vec3::Zero();  ///< [m/s2]
-  double step_safety = 0.5;    ///< time step over the nodal stability bound
-  int insertion_interval = 4;  ///< steps between two checks of the insertion criterion
-  int label_interval = 48;     ///< steps between two looks for new fragments
-  int ledger_interval = 24;    ///< steps between two energy balances
-  int impulse_sweeps = 2;      ///< Gauss-Seidel sweeps of the vertex impulses
-  int contact_sweeps = 4;      ///< Gauss-Seidel sweeps of the general contact
+  double step_safety = 0.5;     ///< time step over the nodal stability bound
+  int insertion_interval = 4;   ///< steps between two checks of the insertion criterion
+  int label_interval = 48;      ///< steps between two looks for new fragments
+  int ledger_interval = 24;     ///< steps between two energy balances
+  int impulse_sweeps = 2;       ///< Gauss-Seidel sweeps of the vertex impulses
+  int contact_sweeps = 4;       ///< Gauss-Seidel sweeps of the general contact
   RigidFragmentOptions rigid_fragments{};
   double restitution = 0.0;  ///< between rigid fragments: speed of parting over speed of approach [-]
 };
