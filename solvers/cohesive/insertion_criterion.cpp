@@ -16,6 +16,14 @@ Vec3 facet_normal(const Topology& topology, std::span<const Vec4> x, Index facet
   return (b - a).cross(c - a).normalized();
 }
 
+OverloadedFacet load_of_facet(const Topology& topology, std::span<const Vec4> x, const TetStresses& stresses,
+                              const LawsOfTets& laws, Index facet) {
+  const auto& [minus, plus] = topology.facet_tets[at(facet)];
+  const Vec3 n = facet_normal(topology, x, facet);
+  const Vec3 t = facet_traction(stresses.stress[at(minus)], stresses.stress[at(plus)], n);
+  return {facet, effective_traction(laws.of(minus), t, n), t};
+}
+
 }  // namespace
 
 double effective_traction(const CohesiveLaw& law, const Vec3& t, const Vec3& normal) {
@@ -50,15 +58,32 @@ std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::sp
       for (const Index tet : topology.facet_tets[at(facets[at(std::min(i + prefetch_distance, count - 1))])])
         __builtin_prefetch(&stresses.stress[at(tet)]);
       const Index facet = facets[at(i)];
-      const auto& [minus, plus] = topology.facet_tets[at(facet)];
-      const Vec3 n = facet_normal(topology, x, facet);
-      const Vec3 t = facet_traction(stresses.stress[at(minus)], stresses.stress[at(plus)], n);
-      const double effective = effective_traction(laws.of(minus), t, n);
-      if (effective >= strength[at(facet)]) found[at(block)].push_back({facet, effective, t});
+      const OverloadedFacet load = load_of_facet(topology, x, stresses, laws, facet);
+      if (load.effective >= strength[at(facet)]) found[at(block)].push_back(load);
     }
   });
   std::vector<OverloadedFacet> all;
   for (const auto& part : found) all.insert(all.end(), part.begin(), part.end());
+  return all;
+}
+
+OverloadedFacet most_loaded_facet(const Topology& topology, std::span<const Vec4> x, const TetStresses& stresses,
+                                  std::span<const double> strength, const LawsOfTets& laws) {
+  std::vector<OverloadedFacet> most(at(num_blocks(topology.num_facets(), facets_per_block)));
+  const auto exceeds = [&](const OverloadedFacet& a, const OverloadedFacet& b) {
+    return b.facet == none || a.effective * strength[at(b.facet)] > b.effective * strength[at(a.facet)];
+  };
+  parallel_blocks(to_index(most.size()), [&](Index block) {
+    const Index end = std::min(topology.num_facets(), (block + 1) * facets_per_block);
+    for (Index facet = block * facets_per_block; facet < end; ++facet) {
+      if (topology.facet_state[at(facet)] != FacetState::Bonded) continue;
+      const OverloadedFacet load = load_of_facet(topology, x, stresses, laws, facet);
+      if (exceeds(load, most[at(block)])) most[at(block)] = load;
+    }
+  });
+  OverloadedFacet all;
+  for (const OverloadedFacet& load : most)
+    if (load.facet != none && exceeds(load, all)) all = load;
   return all;
 }
 

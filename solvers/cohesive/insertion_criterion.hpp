@@ -31,4 +31,9 @@ std::vector<OverloadedFacet> overloaded_facets(const Topology& topology, std::sp
                                                const TetStresses& stresses, std::span<const double> strength,
                                                const LawsOfTets& laws);
 
+/// The bonded facet whose effective traction is the largest share of its strength, the first of equal ones; facet none
+/// without any.
+OverloadedFacet most_loaded_facet(const Topology& topology, std::span<const Vec4> x, const TetStresses& stresses,
+                                  std::span<const double> strength, const LawsOfTets& laws);
+
 }  // namespace knap

@@ -9,59 +9,69 @@ namespace {
 // Contacts have settled when a sweep changes no velocity by more than this share of the largest approach.
 constexpr double settled = 1e-10;
 
-Vec3 side_velocity(const ContactSide& side, const Vec3& place, const std::vector<Vec4>& v, const RigidBodies& rigid) {
+Vec3 side_velocity(const ContactSide& side, const Vec3& place, const std::vector<Vec4>& v, const RigidBodies& rigid,
+                   std::span<const Tool> tools) {
   if (side.body != none) return velocity_at(rigid.bodies[at(side.body)], place);
+  if (side.tool != none) return tools[at(side.tool)].velocity_at(place);
   Vec3 sum = Vec3::Zero();
   for (std::size_t i = 0; i < 4; ++i) sum += side.weights[i] * xyz(v[at(side.nodes[i])]);
   return sum;
 }
 
-Vec3 side_velocity_before(const ContactSide& side, const Vec3& place, const NodalState& nodes,
-                          const RigidBodies& rigid) {
-  if (side.body != none) return velocity_before_at(rigid.bodies[at(side.body)], place);
-  return side_velocity(side, place, nodes.v_before, rigid);
+// Of the second side relative to the first; no tools.
+Vec3 relative_velocity_before(const Contact& c, const NodalState& nodes, const RigidBodies& rigid) {
+  std::array<Vec3, 2> velocity;
+  for (std::size_t k = 0; k < 2; ++k)
+    velocity[k] = c.sides[k].body != none ? velocity_before_at(rigid.bodies[at(c.sides[k].body)], c.place)
+                                          : side_velocity(c.sides[k], c.place, nodes.v_before, rigid, {});
+  return velocity[1] - velocity[0];
 }
 
-// Of the second side relative to the first.
-Vec3 relative_velocity(const Contact& c, const NodalState& nodes, const RigidBodies& rigid) {
-  return side_velocity(c.sides[1], c.place, nodes.v, rigid) - side_velocity(c.sides[0], c.place, nodes.v, rigid);
+Vec3 relative_velocity(const Contact& c, const ContactParties& all) {
+  return relative_velocity(c, all.nodes, all.rigid, all.tools);
 }
 
 // Velocity at the point per impulse there [1/kg].
-Mat3 mobility(const ContactSide& side, const Vec3& place, const NodalState& nodes, const RigidBodies& rigid) {
-  if (side.body != none) return inverse_mass_at(rigid.bodies[at(side.body)], place);
+Mat3 mobility(const ContactSide& side, const Vec3& place, const ContactParties& all) {
+  if (side.body != none) return inverse_mass_at(all.rigid.bodies[at(side.body)], place);
+  if (side.tool != none) {
+    const Tool& tool = all.tools[at(side.tool)];
+    return tool.is_guided() ? Mat3(tool.guide * tool.guide.transpose() / tool.mass) : Mat3::Zero();
+  }
   double inverse = 0.0;
-  for (std::size_t i = 0; i < 4; ++i) inverse += side.weights[i] * side.weights[i] / nodes.mass[at(side.nodes[i])];
+  for (std::size_t i = 0; i < 4; ++i) inverse += side.weights[i] * side.weights[i] / all.nodes.mass[at(side.nodes[i])];
   return inverse * Mat3::Identity();
 }
 
-void add_impulse(const ContactSide& side, const Vec3& place, const Vec3& impulse, NodalState& nodes,
-                 RigidBodies& rigid) {
+void push_tool(Tool& tool, const Vec3& impulse, double dt) {
+  if (tool.is_guided())
+    set_guided_speed(tool, tool.guide.dot(tool.state.velocity) + tool.guide.dot(impulse) / tool.mass, dt);
+}
+
+void add_impulse(const ContactSide& side, const Vec3& place, const Vec3& impulse, const ContactParties& all) {
   if (side.body != none) {
-    apply_impulse(rigid.bodies[at(side.body)], place, impulse);
-    return;
+    apply_impulse(all.rigid.bodies[at(side.body)], place, impulse);
+  } else if (side.tool != none) {
+    push_tool(all.tools[at(side.tool)], impulse, all.dt);
+  } else {
+    for (std::size_t i = 0; i < 4; ++i)
+      xyz(all.nodes.v[at(side.nodes[i])]) += side.weights[i] / all.nodes.mass[at(side.nodes[i])] * impulse;
   }
-  for (std::size_t i = 0; i < 4; ++i)
-    xyz(nodes.v[at(side.nodes[i])]) += side.weights[i] / nodes.mass[at(side.nodes[i])] * impulse;
+}
+
+void add_impulse(const Contact& c, const Vec3& impulse, const ContactParties& all) {
+  add_impulse(c.sides[0], c.place, -impulse, all);
+  add_impulse(c.sides[1], c.place, impulse, all);
 }
 
 // What the bodies are told of their contacts.
-void note_approach(const Contact& c, double approach, RigidBodies& rigid) {
-  for (const ContactSide& side : c.sides)
-    if (side.body != none) rigid.approach[at(side.body)] = std::max(rigid.approach[at(side.body)], approach);
-}
-
 void note_push(const Contact& c, RigidBodies& rigid) {
   for (const ContactSide& side : c.sides)
     if (side.body != none) rigid.push[at(side.body)] += c.impulse.norm();
 }
 
-void add_impulse(const Contact& c, const Vec3& impulse, NodalState& nodes, RigidBodies& rigid) {
-  add_impulse(c.sides[0], c.place, -impulse, nodes, rigid);
-  add_impulse(c.sides[1], c.place, impulse, nodes, rigid);
-}
-
-double friction(const Contact& c, const ContactOptions& options) {
+double friction(const Contact& c, const ContactParties& all, const ContactOptions& options) {
+  if (c.sides[0].tool != none) return all.tools[at(c.sides[0].tool)].friction;
   const PairFriction& pairs = options.pairs;
   if (pairs.table.empty()) return options.friction;
   const Index first = pairs.particle_of_tet[at(c.tets[0])], second = pairs.particle_of_tet[at(c.tets[1])];
@@ -77,25 +87,26 @@ struct Row {
 };
 
 bool is_rigid(const Contact& c) { return c.sides[0].body != none || c.sides[1].body != none; }
-bool is_between_bodies(const Contact& c) { return c.sides[0].body != none && c.sides[1].body != none; }
+// Both sides are rigid.
+bool can_rebound(const Contact& c) { return !c.sides[0].is_deformable() && !c.sides[1].is_deformable(); }
 
-Row make_row(const Contact& c, const NodalState& nodes, RigidBodies& rigid, const ContactOptions& options) {
-  const Mat3 both = mobility(c.sides[0], c.place, nodes, rigid) + mobility(c.sides[1], c.place, nodes, rigid);
+Row make_row(const Contact& c, const ContactParties& all, const ContactOptions& options) {
+  const Mat3 both = mobility(c.sides[0], c.place, all) + mobility(c.sides[1], c.place, all);
   Row row;
-  row.friction = friction(c, options);
+  row.friction = friction(c, all, options);
   const double along = c.normal.dot(both * c.normal);
   row.normal_mass = 1.0 / along;
+  row.tangential_mass = row.normal_mass;
   if (is_rigid(c)) {
     // Of the mobility in the tangential plane, [a b; b d] for two tangents, the largest eigenvalue.
     const Vec3 s = c.normal.unitOrthogonal(), t = c.normal.cross(s);
     const double a = s.dot(both * s), b = s.dot(both * t), d = t.dot(both * t);
     row.tangential_mass = 1.0 / (0.5 * (a + d) + std::hypot(0.5 * (a - d), b));
-  } else {
-    row.tangential_mass = row.normal_mass;
   }
-  const double approach = -c.normal.dot(relative_velocity(c, nodes, rigid));
-  note_approach(c, approach, rigid);
-  if (is_between_bodies(c) && approach > options.slowest) row.target = options.restitution * approach;
+  const double approach = -c.normal.dot(relative_velocity(c, all));
+  if (c.gap > 0.0) row.target = -c.gap / all.dt;
+  if (can_rebound(c) && approach > options.slowest && -approach < row.target)
+    row.target = std::max(row.target, options.restitution * approach);
   return row;
 }
 
@@ -109,20 +120,20 @@ Vec3 in_cone(const Vec3& trial, const Vec3& normal, double friction) {
 }
 
 // Solves one contact; returns the change of its velocity.
-double solve(Contact& c, const Row& row, NodalState& nodes, RigidBodies& rigid) {
-  const Vec3 velocity = relative_velocity(c, nodes, rigid);
+double solve(Contact& c, const Row& row, const ContactParties& all) {
+  const Vec3 velocity = relative_velocity(c, all);
   const double along = velocity.dot(c.normal);
   const Vec3 trial = c.impulse - row.normal_mass * (along - row.target) * c.normal -
                      row.tangential_mass * (velocity - along * c.normal);
   const Vec3 impulse = in_cone(trial, c.normal, row.friction);
   const Vec3 change = impulse - c.impulse;
-  add_impulse(c, change, nodes, rigid);
+  add_impulse(c, change, all);
   c.impulse = impulse;
   return change.norm() / row.normal_mass;
 }
 
 // Until nothing changes any more.
-void settle_bodies(ContactState& contact, std::span<const Row> rows, NodalState& nodes, RigidBodies& rigid,
+void settle_bodies(ContactState& contact, std::span<const Row> rows, const ContactParties& all,
                    const ContactOptions& options) {
   std::vector<std::size_t> with_body;
   double fastest = 0.0;
@@ -134,37 +145,53 @@ void settle_bodies(ContactState& contact, std::span<const Row> rows, NodalState&
   }
   for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
     double largest = 0.0;
-    for (const std::size_t i : with_body)
-      largest = std::max(largest, solve(contact.contacts[i], rows[i], nodes, rigid));
+    for (const std::size_t i : with_body) largest = std::max(largest, solve(contact.contacts[i], rows[i], all));
     if (largest <= settled * fastest) return;
   }
 }
 
 }  // namespace
 
-void apply_contact_impulses(ContactState& contact, NodalState& nodes, RigidBodies& rigid,
-                            const ContactOptions& options) {
+Vec3 relative_velocity(const Contact& c, const NodalState& nodes, const RigidBodies& rigid,
+                       std::span<const Tool> tools) {
+  return side_velocity(c.sides[1], c.place, nodes.v, rigid, tools) -
+         side_velocity(c.sides[0], c.place, nodes.v, rigid, tools);
+}
+
+void apply_contact_impulses(ContactState& contact, const ContactParties& all, const ContactOptions& options) {
   std::vector<Row> rows;
   rows.reserve(contact.contacts.size());
-  for (const Contact& c : contact.contacts) rows.push_back(make_row(c, nodes, rigid, options));
+  for (const Contact& c : contact.contacts) rows.push_back(make_row(c, all, options));
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Contact& c = contact.contacts[i];
     c.impulse = in_cone(c.impulse, c.normal, rows[i].friction);
-    add_impulse(c, c.impulse, nodes, rigid);
+    add_impulse(c, c.impulse, all);
   }
   for (int sweep = 0; sweep < options.sweeps; ++sweep)
-    for (std::size_t i = 0; i < rows.size(); ++i) solve(contact.contacts[i], rows[i], nodes, rigid);
-  settle_bodies(contact, rows, nodes, rigid, options);
-  for (const Contact& c : contact.contacts) note_push(c, rigid);
+    for (std::size_t i = 0; i < rows.size(); ++i) solve(contact.contacts[i], rows[i], all);
+  settle_bodies(contact, rows, all, options);
+  for (const Contact& c : contact.contacts) note_push(c, all.rigid);
 }
 
 void book_contact_losses(ContactState& contact, const NodalState& nodes, const RigidBodies& rigid) {
   for (const Contact& c : contact.contacts) {
-    if (c.impulse.isZero(0.0)) continue;
-    const Vec3 before = side_velocity_before(c.sides[1], c.place, nodes, rigid) -
-                        side_velocity_before(c.sides[0], c.place, nodes, rigid);
-    contact.dissipated -= 0.5 * c.impulse.dot(relative_velocity(c, nodes, rigid) + before);
+    if (c.impulse.isZero(0.0) || c.sides[0].tool != none) continue;
+    contact.dissipated -=
+        0.5 * c.impulse.dot(relative_velocity(c, nodes, rigid, {}) + relative_velocity_before(c, nodes, rigid));
   }
+}
+
+std::vector<ToolDeed> tool_deeds(const ContactState& contact, const RigidBodies& rigid, std::span<const Tool> tools) {
+  std::vector<ToolDeed> deeds;
+  for (const Contact& c : contact.contacts) {
+    if (c.sides[0].tool == none || c.impulse.isZero(0.0)) continue;
+    const RigidBody& body = rigid.bodies[at(c.sides[1].body)];
+    const Vec3 push = c.impulse.dot(c.normal) * c.normal;
+    const Vec3 mean = 0.5 * (velocity_at(body, c.place) + velocity_before_at(body, c.place));
+    const Index tool = c.sides[0].tool;
+    deeds.push_back({tool, c.place, tools[at(tool)].state.position, push, c.impulse - push, mean, c.place});
+  }
+  return deeds;
 }
 
 }  // namespace knap

@@ -1,5 +1,6 @@
 #pragma once
 #include "contact/contact_state.hpp"
+#include "contact/tool_contact.hpp"
 #include "core/nodal_state.hpp"
 #include "core/rigid_bodies.hpp"
 
@@ -15,19 +16,35 @@ struct PairFriction {
 struct ContactOptions {
   double friction = 0.0;  ///< Coulomb, without a table [-]
   PairFriction pairs{};
-  double restitution = 0.0;  ///< between rigid bodies: speed of parting over speed of approach (Newton) [-]
-  double slowest = 0.0;      ///< approach below this speed does not rebound [m/s]
-  int sweeps = 4;            ///< Gauss-Seidel sweeps over all contacts
-  int rigid_sweeps = 50;     ///< further ones over contacts with a rigid body, until they have settled
+  double restitution =
+      0.0;  ///< between rigid bodies, and of them on tools: speed of parting over speed of approach (Newton) [-]
+  double slowest = 0.0;   ///< approach below this speed does not rebound [m/s]
+  int sweeps = 4;         ///< Gauss-Seidel sweeps over all contacts
+  int rigid_sweeps = 50;  ///< further ones over contacts with a rigid body, until they have settled
 };
 
-/// Impulses that stop approaching contacts, with Coulomb friction, on nodes.v and the bodies' velocities: a contact
-/// only pushes, never more than stops the approach (or makes it rebound), so an overlap stays and does not push apart.
-/// (Moreau 1988; Jean 1999.)
-void apply_contact_impulses(ContactState& contact, NodalState& nodes, RigidBodies& rigid,
-                            const ContactOptions& options);
+/// Who can take part in a contact.
+struct ContactParties {
+  NodalState& nodes;
+  RigidBodies& rigid;
+  std::span<Tool> tools{};
+  double dt = 0.0;  ///< [s]
+};
 
-/// Adds the work of this step's contact impulses to contact.dissipated, once all velocities are final.
+/// Velocity of the second side relative to the first, at the contact's place [m/s].
+Vec3 relative_velocity(const Contact& contact, const NodalState& nodes, const RigidBodies& rigid,
+                       std::span<const Tool> tools);
+
+/// Impulses that stop approaching contacts, with Coulomb friction, on nodes.v, the bodies' velocities and those of
+/// guided tools: a contact only pushes, never more than stops the approach (or makes it rebound), so an overlap stays
+/// and does not push apart. (Moreau 1988; Jean 1999.)
+void apply_contact_impulses(ContactState& contact, const ContactParties& parties, const ContactOptions& options);
+
+/// Adds the work of this step's contact impulses to contact.dissipated, once all velocities are final; that of tools is
+/// in tool_deeds.
 void book_contact_losses(ContactState& contact, const NodalState& nodes, const RigidBodies& rigid);
+
+/// What the tools did to rigid bodies in this step.
+std::vector<ToolDeed> tool_deeds(const ContactState& contact, const RigidBodies& rigid, std::span<const Tool> tools);
 
 }  // namespace knap

@@ -146,17 +146,10 @@ ContactSide side_of(Index tet, const Vec3& place, const Topology& topology, std:
   return side;
 }
 
-/// What contacts are made of.
-struct Makings {
-  const ContactState& contact;
-  const Topology& topology;
-  std::span<const Vec4> x;
-  const RigidBodies& rigid;
-};
-
-void add_point(const Makings& from, const Touch& touch, const Vec3& place, std::vector<Contact>& contacts) {
+void add_point(const ContactState& contact, const ContactScene& from, const Touch& touch, const Vec3& place,
+               std::vector<Contact>& contacts) {
   Contact added;
-  added.tets = from.contact.candidates[at(touch.candidate)].tets;
+  added.tets = contact.candidates[at(touch.candidate)].tets;
   const bool is_next = !contacts.empty() && contacts.back().tets == added.tets;
   added.point = static_cast<std::int8_t>(is_next ? contacts.back().point + 1 : 0);
   added.place = place;
@@ -165,16 +158,46 @@ void add_point(const Makings& from, const Touch& touch, const Vec3& place, std::
   contacts.push_back(added);
 }
 
-void add_contacts(const Makings& from, const Touch& touch, std::vector<Contact>& contacts) {
+void add_contacts(const ContactState& contact, const ContactScene& from, const Touch& touch,
+                  std::vector<Contact>& contacts) {
   if (touch.normal.isZero(0.0)) return;
-  const auto& tets = from.contact.candidates[at(touch.candidate)].tets;
+  const auto& tets = contact.candidates[at(touch.candidate)].tets;
   const bool carries_body = from.rigid.of_tet(tets[0]) != none || from.rigid.of_tet(tets[1]) != none;
   const auto& corners = touch.patch.corners;
   const double width = (corners[1] - corners[0]).norm();
   if (carries_body && width > wide_patch * touch.size) {
-    for (const Vec3& corner : corners) add_point(from, touch, corner, contacts);
+    for (const Vec3& corner : corners) add_point(contact, from, touch, corner, contacts);
   } else {
-    add_point(from, touch, touch.patch.centre, contacts);
+    add_point(contact, from, touch, touch.patch.centre, contacts);
+  }
+}
+
+// The nodes of a body that may reach the tool in this step, at twice the speed of now, since others may push it.
+void add_tool_contacts(const ContactScene& scene, Index body, Index tool, double reach,
+                       std::vector<Contact>& contacts) {
+  for (const Index node : scene.rigid.nodes_of_body[body]) {
+    const Vec3 place = xyz(scene.x[at(node)]);
+    const ToolProximity near = proximity(scene.tools[at(tool)], place);
+    if (near.gap > reach) continue;
+    Contact added;
+    added.tets = {key_of_tool(tool), node};
+    added.place = place;
+    added.normal = near.normal;
+    added.gap = std::max(0.0, near.gap);
+    added.sides[0].tool = tool;
+    added.sides[1].body = body;
+    contacts.push_back(added);
+  }
+}
+
+void add_tool_contacts(const ContactScene& scene, std::vector<Contact>& contacts) {
+  constexpr double steps_ahead = 2.0;
+  for (Index b = 0; b < scene.rigid.num_bodies(); ++b) {
+    const RigidBody& body = scene.rigid.bodies[at(b)];
+    const double reach = steps_ahead * scene.dt * fastest_against_tools(body, scene.tools);
+    for (Index k = 0; k < to_index(scene.tools.size()); ++k)
+      if (proximity(scene.tools[at(k)], body.centre).gap <= body.radius + reach)
+        add_tool_contacts(scene, b, k, reach, contacts);
   }
 }
 
@@ -220,12 +243,19 @@ void keep_impulses(const std::vector<Contact>& old, std::vector<Contact>& now) {
 
 }  // namespace
 
-void refresh_contacts(ContactState& contact, const Topology& topology, std::span<const Vec4> x,
-                      const RigidBodies& rigid) {
-  std::vector<Touch> touches = find_touches(contact, topology, x);
+double fastest_against_tools(const RigidBody& body, std::span<const Tool> tools) {
+  double tool_speed = 0.0;
+  for (const Tool& tool : tools)
+    tool_speed = std::max(tool_speed, tool.velocity_at(body.centre).norm() + tool.state.spin.norm() * body.radius);
+  return tool_speed + body.velocity.norm() + spin(body).norm() * body.radius;
+}
+
+void refresh_contacts(ContactState& contact, const ContactScene& scene) {
+  std::vector<Touch> touches = find_touches(contact, scene.topology, scene.x);
   set_all_normals(touches);
   std::vector<Contact> contacts;
-  for (const Touch& touch : touches) add_contacts({contact, topology, x, rigid}, touch, contacts);
+  for (const Touch& touch : touches) add_contacts(contact, scene, touch, contacts);
+  add_tool_contacts(scene, contacts);
   std::stable_sort(contacts.begin(), contacts.end(),
                    [](const Contact& a, const Contact& b) { return a.tets < b.tets; });
   keep_impulses(contact.contacts, contacts);

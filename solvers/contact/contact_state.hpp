@@ -15,22 +15,30 @@ struct ContactCandidate {
   double due = 0.0;  ///< travel of both fragments together from which on they may touch [m]
 };
 
-/// One body's part of a contact: a rigid body, or the four nodes of a tet with the barycentric weights of the point.
+/// One body's part of a contact: a rigid body, a tool, or the four nodes of a tet with the barycentric weights of the
+/// point.
 struct ContactSide {
   Index body = none;
+  Index tool = none;
   TetCorners nodes{none, none, none, none};
   std::array<double, 4> weights{};
+
+  bool is_deformable() const { return body == none && tool == none; }
 };
 
-/// A point shared by two overlapping tets.
+/// A point shared by two overlapping tets, or a node of a rigid body on a tool.
 struct Contact {
-  std::array<Index, 2> tets{none, none};
-  std::int8_t point = 0;        ///< number among the points of this pair
-  Vec3 place = Vec3::Zero();    ///< [m]
-  Vec3 normal = Vec3::Zero();   ///< unit, from the first tet to the second
-  Vec3 impulse = Vec3::Zero();  ///< on the second side, the opposite on the first [N s]
+  std::array<Index, 2> tets{none, none};  ///< or key_of_tool and the node
+  std::int8_t point = 0;                  ///< number among the points of this pair
+  Vec3 place = Vec3::Zero();              ///< [m]
+  Vec3 normal = Vec3::Zero();             ///< unit, from the first tet to the second
+  Vec3 impulse = Vec3::Zero();            ///< on the second side, the opposite on the first [N s]
+  double gap = 0.0;                       ///< that the step may still close [m]
   std::array<ContactSide, 2> sides{};
 };
+
+/// What stands for a tool in the place of a tet: below all tets.
+inline Index key_of_tool(Index tool) { return -2 - tool; }
 
 /// Everything but scratch is persistent.
 struct ContactState {

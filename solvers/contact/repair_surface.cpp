@@ -212,13 +212,34 @@ Mesh cgal_mesh(const Numbered& surface, const std::string& name) {
   return mesh;
 }
 
+// Whether two triangles that touch in one corner, which is not the same vertex of the mesh, meet nowhere else.
+bool touch_in_a_corner_only(const Numbered& surface, std::size_t first, std::size_t second) {
+  const auto point = [&](std::size_t triangle, std::size_t i) {
+    const Vec3& x = surface.vertices[at(surface.triangles[triangle][i % 3])];
+    return Kernel::Point_3(x.x(), x.y(), x.z());
+  };
+  const auto triangle = [&](std::size_t t) { return Kernel::Triangle_3(point(t, 0), point(t, 1), point(t, 2)); };
+  const auto opposite = [&](std::size_t t, std::size_t i) {
+    return Kernel::Segment_3(point(t, i + 1), point(t, i + 2));
+  };
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (point(first, i) == point(second, j))
+        return !CGAL::do_intersect(opposite(first, i), triangle(second)) &&
+               !CGAL::do_intersect(opposite(second, j), triangle(first));
+  return false;
+}
+
 void check_intersections(const Mesh& mesh, const Numbered& surface, const std::string& name) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> pairs;
   CGAL::Polygon_mesh_processing::self_intersections(mesh, std::back_inserter(pairs));
-  if (pairs.empty()) return;
-  const auto number = [&](Mesh::Face_index face) { return surface.numbers[static_cast<std::size_t>(face)]; };
-  auto [a, b] = std::minmax(number(pairs.front().first), number(pairs.front().second));
-  throw InputError(fmt::format("{}: the triangles {} and {} cut each other ({} such pairs)", name, a, b, pairs.size()));
+  for (const auto& [a, b] : pairs) {
+    const auto first = static_cast<std::size_t>(a), second = static_cast<std::size_t>(b);
+    if (touch_in_a_corner_only(surface, first, second)) continue;
+    throw InputError(fmt::format("{}: the triangles {} and {} cut each other", name,
+                                 std::min(surface.numbers[first], surface.numbers[second]),
+                                 std::max(surface.numbers[first], surface.numbers[second])));
+  }
 }
 
 // Of closed surfaces: outer ones outwards, those of cavities inwards.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "contact/edge_impulses.hpp"
 #include "contact/guided_tool.hpp"
 #include "contact/tool_landing.hpp"
 #include "core/parallel.hpp"
@@ -85,36 +86,63 @@ void land(std::span<const Tool> tools, NodalState& nodes, std::vector<NodeLandin
   block = std::move(settled);
 }
 
-// Adds what a landing did, at the final velocities. The tool's velocity is the mean of before and after the impulses,
-// as the node's is: a node that rides on a tool that gathers speed loses nothing.
-void add(ToolAction& sum, const Tool& tool, const NodalState& nodes, const NodeLanding& landing) {
-  const ToolState& state = tool.state;
-  const Vec3 v = xyz(nodes.v[at(landing.node)]);
-  const Vec3 mean = 0.5 * (v + xyz(nodes.v_before[at(landing.node)]));
-  const Vec3 arm = landing.end - tool.next.position;
+// The tool's velocity is the mean of before and after the impulses, as the particle's is: what rides on a tool that
+// gathers speed loses nothing.
+void add(ToolAction& sum, const ToolState& state, const ToolDeed& deed) {
+  const Vec3 arm = deed.place - deed.origin;
   const Vec3 carried = 0.5 * (state.velocity + state.velocity_before + (state.spin + state.spin_before).cross(arm));
-  const Vec3 impulse = landing.push + landing.drag;
-  sum.push += landing.push;
+  const Vec3 impulse = deed.push + deed.drag;
+  sum.push += deed.push;
   sum.impulse += impulse;
-  sum.angular_impulse += Vec3(xyz(nodes.x[at(landing.node)])).cross(impulse);
+  sum.angular_impulse += deed.lever.cross(impulse);
   sum.work += impulse.dot(carried);
-  sum.impact_loss -= landing.push.dot(mean - carried);
-  sum.friction_loss -= landing.drag.dot(mean - carried);
+  sum.impact_loss -= deed.push.dot(deed.mean_velocity - carried);
+  sum.friction_loss -= deed.drag.dot(deed.mean_velocity - carried);
 }
 
-void book(std::span<Tool> tools, const NodalState& nodes, const ToolLandings& landings, const ToolStep& step) {
+Vec3 mean_velocity(const NodalState& nodes, Index node) {
+  const Vec3 v = xyz(nodes.v[at(node)]);
+  return 0.5 * (v + xyz(nodes.v_before[at(node)]));
+}
+
+ToolDeed deed_of(const NodeLanding& landing, const Tool& tool, const NodalState& nodes) {
+  return {landing.tool,
+          landing.end,
+          tool.next.position,
+          landing.push,
+          landing.drag,
+          mean_velocity(nodes, landing.node),
+          xyz(nodes.x[at(landing.node)])};
+}
+
+ToolDeed deed_of(const EdgeTouch& touch, const Tool& tool, const NodalState& nodes) {
+  ToolDeed deed{touch.tool, touch.place, tool.state.position, touch.push, touch.drag, Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t k = 0; k < 3; ++k) {
+    deed.mean_velocity += touch.weights[k] * mean_velocity(nodes, touch.nodes[k]);
+    deed.lever += touch.weights[k] * xyz(nodes.x[at(touch.nodes[k])]);
+  }
+  return deed;
+}
+
+// At the final velocities; summed by blocks of nodes, edges last.
+void book(std::span<Tool> tools, const NodalState& nodes, const ToolLandings& landings,
+          std::span<const EdgeTouch> touches, std::span<const ToolDeed> deeds, const ToolStep& step) {
   std::vector<ToolAction> total(tools.size());
-  std::vector<char> touched(tools.size(), 0);
+  for (const ToolDeed& deed : deeds) add(total[at(deed.tool)], tools[at(deed.tool)].state, deed);
   for (const auto& block : landings) {
     std::vector<ToolAction> sum(tools.size());
     for (const NodeLanding& landing : block) {
-      add(sum[at(landing.tool)], tools[at(landing.tool)], nodes, landing);
-      touched[at(landing.tool)] = 1;
+      const Tool& tool = tools[at(landing.tool)];
+      add(sum[at(landing.tool)], tool.state, deed_of(landing, tool, nodes));
     }
     for (std::size_t k = 0; k < tools.size(); ++k) total[k] += sum[k];
   }
+  for (const EdgeTouch& touch : touches) {
+    const Tool& tool = tools[at(touch.tool)];
+    add(total[at(touch.tool)], tool.state, deed_of(touch, tool, nodes));
+  }
   for (std::size_t k = 0; k < tools.size(); ++k)
-    if (touched[k]) book_action(tools[k], total[k], step.dt, step.step);
+    if (total[k].push.squaredNorm() > 0.0) book_action(tools[k], total[k], step.dt, step.step);
 }
 
 // The final speeds of guided tools: exactly what the particle's impulses make of the free ones.
@@ -132,7 +160,9 @@ void push_guided_tools_back(std::span<Tool> tools, std::span<const double> free_
 
 }  // namespace
 
-std::vector<Index> apply_tools(std::span<Tool> tools, NodalState& nodes, const ToolStep& step) {
+std::vector<Index> apply_tools(std::span<Tool> tools, NodalState& nodes, const ToolStep& step,
+                               std::span<EdgeTouch> touches, std::span<const ToolDeed> deeds) {
+  push_edges(tools, nodes, touches, step.dt);
   std::vector<double> free_speed;
   for (const Tool& tool : tools) free_speed.push_back(tool.guide.dot(tool.state.velocity));
   ToolLandings landings = find_landings(tools, nodes, step);
@@ -144,7 +174,11 @@ std::vector<Index> apply_tools(std::span<Tool> tools, NodalState& nodes, const T
     for_each_node(block, [&](const Group& group) { touched.push_back(group.front().node); });
   }
   push_guided_tools_back(tools, free_speed, landings, step.dt);
-  book(tools, nodes, landings, step);
+  book(tools, nodes, landings, touches, deeds, step);
+  if (touches.empty()) return touched;
+  for (const EdgeTouch& touch : touches) touched.insert(touched.end(), touch.nodes.begin(), touch.nodes.end());
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
   return touched;
 }
 

@@ -4,6 +4,7 @@
 
 #include "cohesive/crack_faces.hpp"
 #include "cohesive/sleeping_faces.hpp"
+#include "contact/contact_pairs.hpp"
 #include "fem/sleeping_tets.hpp"
 #include "simulation/quiet_fragments.hpp"
 #include "simulation/step.hpp"
@@ -13,14 +14,6 @@ namespace {
 
 // A tool that could touch a body within so many steps wakes it.
 constexpr double steps_ahead = 2.0;
-
-// Bound of the speed of a body's matter against any tool [m/s].
-double fastest(const Simulation& s, const RigidBody& body) {
-  double tool_speed = 0.0;
-  for (const Tool& tool : s.tools)
-    tool_speed = std::max(tool_speed, tool.velocity_at(body.centre).norm() + tool.state.spin.norm() * body.radius);
-  return tool_speed + body.velocity.norm() + spin(body).norm() * body.radius;
-}
 
 // Those of no body work from now on, the others sleep.
 void refresh_sleepers(Simulation& s) {
@@ -58,16 +51,11 @@ void let_branch_go(Simulation& s, std::span<const QuietFragment> fragments, doub
 
 // The contact layer tells what has hit a body only after it has stopped it.
 void note_approaches(Simulation& s) {
-  const auto velocity = [&s](const ContactSide& side, const Vec3& place) {
-    if (side.body != none) return velocity_at(s.rigid.bodies[at(side.body)], place);
-    Vec3 sum = Vec3::Zero();
-    for (std::size_t i = 0; i < 4; ++i) sum += side.weights[i] * xyz(s.nodes.v[at(side.nodes[i])]);
-    return sum;
-  };
   for (const Contact& contact : s.contact.contacts) {
     const auto& [first, second] = contact.sides;
     if (first.body == none && second.body == none) continue;
-    const double approach = -contact.normal.dot(velocity(second, contact.place) - velocity(first, contact.place));
+    const double approach =
+        -contact.normal.dot(relative_velocity(contact, s.nodes, s.rigid, s.tools)) - contact.gap / s.clock.dt;
     for (const Index b : {first.body, second.body})
       if (b != none) s.rigid.approach[at(b)] = std::max(s.rigid.approach[at(b)], approach);
   }
@@ -75,7 +63,9 @@ void note_approaches(Simulation& s) {
 
 bool must_wake(const Simulation& s, Index b) {
   const RigidBody& body = s.rigid.bodies[at(b)];
-  if (is_near_tool(s, s.rigid.nodes_of_body[b], body, steps_ahead * s.clock.dt * fastest(s, body))) return true;
+  if (is_near_edged_tool(s, s.rigid.nodes_of_body[b], body,
+                         steps_ahead * s.clock.dt * fastest_against_tools(body, s.tools)))
+    return true;
   if (!body.can_break()) return false;
   const RigidFragmentOptions& options = s.options.rigid_fragments;
   return 0.9 * body.load > options.load_share * body.strength * body.size * body.size ||

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "cohesive/fragments.hpp"
 #include "cohesive/insertion.hpp"
 #include "cohesive/strength_field.hpp"
 #include "contact/initial_overlap.hpp"
@@ -20,6 +21,8 @@ namespace {
 
 // Candidate pairs are kept for fragments that move by this much of the mean edge towards each other.
 constexpr double skin_over_edge = 0.3;
+// Of the points on tools' edges over the mean edge: one at least in every face that an edge crosses.
+constexpr double spacing_over_edge = 0.4;
 
 void measure_facets(ReferenceState& reference, const Topology& topology) {
   reference.facet_area.reserve(at(topology.num_facets()));
@@ -105,8 +108,7 @@ double energy_to_compare_with(const Simulation& s) {
   if (incident > 0.0) return incident;
   double stiffness = 0.0;
   for (std::size_t tet = 0; tet < s.reference.tet_volume.size(); ++tet)
-    stiffness +=
-        s.options.particles[at(s.reference.particle_of_tet[tet])].young_modulus * s.reference.tet_volume[tet];
+    stiffness += s.options.particles[at(s.reference.particle_of_tet[tet])].young_modulus * s.reference.tet_volume[tet];
   return 0.5 * stiffness * strain_at_rest * strain_at_rest;
 }
 
@@ -193,11 +195,13 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   s.elastic = make_elastic_force(s.topology, all.vertices, materials, s.reference.particle_of_tet);
 
   s.cracks = make_crack_state(s.topology, first_vertices(meshes));
-  s.contact.fragment_of_tet.assign(all.tets.size(), 0);
+  s.contact.fragment_of_tet = fragment_labels(s.topology, s.cracks, FragmentLabel::Strict);
+  s.contact.fragments = num_fragments(s.contact.fragment_of_tet);
   s.contact.skin = skin_over_edge * s.reference.mean_edge;
 
   s.tools = make_tools(options.tools, s.clock.dt);
   check_tools_are_outside(s);
+  s.tool_edges = make_edge_watch(s.tools, spacing_over_edge * s.reference.mean_edge);
   s.reference.start_potential = gravity_potential(s, -0.5 * s.clock.dt);
 
   s.reference.start = momentum(s.nodes);

@@ -36,8 +36,9 @@ struct ParticleOptions {
 /// break; a fragment without one is asked neither for them nor for quiet, and never wakes.
 struct RigidFragmentOptions {
   bool enabled = false;
-  double quiet_crossings = 5.0;    ///< without insertion or noticeable damage, in times that a wave takes to cross it
-  int quiet_steps = 192;           ///< likewise, in steps: the longer of both
+  bool whole = false;            ///< also what has come off nothing: a whole particle, a piece that the mesh came with
+  double quiet_crossings = 5.0;  ///< without insertion or noticeable damage, in times that a wave takes to cross it
+  int quiet_steps = 192;         ///< likewise, in steps: the longer of both
   double noticeable_damage = 0.1;  ///< growth of a facet's mean damage that ends the quiet [-]
   double strain_share = 0.5;       ///< largest strain energy of a fragment that freezes [-]
   double vibration_share = 1.0;    ///< largest kinetic energy beside its rigid motion [-]

@@ -303,9 +303,9 @@ std::string case_hash(const Simulation& s) {
   hash.add(std::vector{o.step_safety, o.gravity.x(), o.gravity.y(), o.gravity.z()});
   for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
   const RigidFragmentOptions& r = o.rigid_fragments;
-  hash.add(std::vector{r.enabled ? 1.0 : 0.0, r.quiet_crossings, static_cast<double>(r.quiet_steps),
-                       r.noticeable_damage, r.strain_share, r.vibration_share, r.loss_share, r.approach_share,
-                       r.load_share, o.restitution});
+  hash.add(std::vector{r.enabled ? 1.0 : 0.0, r.whole ? 1.0 : 0.0, r.quiet_crossings,
+                       static_cast<double>(r.quiet_steps), r.noticeable_damage, r.strain_share, r.vibration_share,
+                       r.loss_share, r.approach_share, r.load_share, o.restitution});
   hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
   return hash.hex();
 }

@@ -161,7 +161,7 @@ bool is_a_piece(const Simulation& s, std::span<const Index> tets) {
 }
 
 std::optional<QuietFragment> quiet_fragment(const Simulation& s, std::span<const Index> tets) {
-  if (s.rigid.of_tet(tets[0]) != none || !is_a_piece(s, tets)) return std::nullopt;
+  if (s.rigid.of_tet(tets[0]) != none || !(s.options.rigid_fragments.whole || is_a_piece(s, tets))) return std::nullopt;
   const bool is_loose = has_come_loose(s, tets);
   if (!(is_loose && weakest_facet(s, tets) == RigidBody::unbreakable) && !is_quiet(s, tets)) return std::nullopt;
   QuietFragment fragment{{tets.begin(), tets.end()}, nodes_of(s.topology, tets), {}, 0.0, is_loose};
@@ -169,14 +169,15 @@ std::optional<QuietFragment> quiet_fragment(const Simulation& s, std::span<const
   fragment.body = rigid_body(s, tets, fragment.nodes);
   fragment.vibration = kinetic_energy_of(s.nodes, fragment.nodes) - kinetic_energy(fragment.body);
   if (!may_freeze(s, fragment)) return std::nullopt;
-  if (is_near_tool(s, fragment.nodes, fragment.body, clear_of_tools * s.reference.mean_edge)) return std::nullopt;
+  if (is_near_edged_tool(s, fragment.nodes, fragment.body, clear_of_tools * s.reference.mean_edge)) return std::nullopt;
   return fragment;
 }
 
 }  // namespace
 
-bool is_near_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance) {
+bool is_near_edged_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance) {
   for (const Tool& tool : s.tools) {
+    if (!std::holds_alternative<SurfaceTool>(tool.shape)) continue;
     if (proximity(tool, body.centre).gap > body.radius + distance) continue;
     for (const Index node : nodes)
       if (proximity(tool, xyz(s.nodes.x[at(node)])).gap <= distance) return true;

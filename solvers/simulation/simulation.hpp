@@ -3,7 +3,7 @@
 #include "cohesive/insertion_criterion.hpp"
 #include "cohesive/vertex_impulses.hpp"
 #include "contact/contact_impulses.hpp"
-#include "contact/tool_contact.hpp"
+#include "contact/tool_edges.hpp"
 #include "core/energy_ledger.hpp"
 #include "core/nodal_state.hpp"
 #include "core/rigid_bodies.hpp"
@@ -82,6 +82,7 @@ struct Simulation {
   RigidBodies rigid;
   FreezingState freezing;
   std::vector<Tool> tools;            ///< in the order of options.tools
+  EdgeWatch tool_edges;               ///< for which of the particle's faces
   std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending
   EnergyLedger ledger;
   EnergyLedger last_good_ledger;  ///< the last one that closed within energy_warning

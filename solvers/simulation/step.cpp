@@ -101,11 +101,13 @@ void drift_nodes(Simulation& s) {
   place_nodes(s.rigid, s.nodes);
 }
 
+ContactScene scene(const Simulation& s) { return {s.topology, s.nodes.x, s.rigid, s.tools, s.clock.dt}; }
+
 // Before their contacts are solved, so that these act on what can deform.
 void wake_bodies(Simulation& s) {
   if (s.rigid.bodies.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::RigidBodies);
-  if (wake_loaded_bodies(s)) refresh_contacts(s.contact, s.topology, s.nodes.x, s.rigid);
+  if (wake_loaded_bodies(s)) refresh_contacts(s.contact, scene(s));
   clear_contact_reports(s.rigid);
 }
 
@@ -143,19 +145,19 @@ bool look_for_new_fragments(Simulation& s) {
   s.contact.fragment_of_tet = std::move(labels);
   const Index handed_over = hand_over_faces(s.cracks, s.topology, s.nodes.x, s.contact.fragment_of_tet,
                                             {.lets_go = s.freezing.lets_go, .facet_size = s.reference.facet_size});
-  if (!changed && handed_over == 0) return false;
+  if (!changed && handed_over == 0 && !s.contact.margin.empty()) return false;
   rebuild_contact_candidates(s);
   return true;
 }
 
 void detect_contacts(Simulation& s) {
-  if (s.options.particles.size() == 1 && s.totals.inserted_facets == 0) return;  // in one piece
+  if (s.contact.fragments < 2 && s.totals.inserted_facets == 0) return;  // in one piece
   const PhaseTimer timer(s.phase_times, Phase::ContactDetection);
   const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
   // The way of the last drift.
   if (!rebuilt && advance_travel(s.contact, s.nodes.v, s.clock.dt)) rebuild_contact_candidates(s);
-  refresh_contacts(s.contact, s.topology, s.nodes.x, s.rigid);
+  refresh_contacts(s.contact, scene(s));
 }
 
 void apply_crack_impulses(Simulation& s) {
@@ -168,7 +170,7 @@ void apply_fragment_contacts(Simulation& s) {
   if (s.contact.contacts.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactImpulses);
   apply_contact_impulses(
-      s.contact, s.nodes, s.rigid,
+      s.contact, {s.nodes, s.rigid, s.tools, s.clock.dt},
       {.pairs = {s.reference.pair_friction, s.reference.particle_of_tet, to_index(s.options.particles.size())},
        .restitution = s.options.restitution,
        .sweeps = s.options.contact_sweeps});
@@ -180,11 +182,13 @@ void apply_tool_impulses(Simulation& s) {
   s.nodes_on_tools.clear();
   if (s.tools.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::Tools);
-  s.nodes_on_tools = apply_tools(s.tools, s.nodes,
-                                 {.dt = s.clock.dt,
-                                  .step = s.clock.step,
-                                  .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
-                                  .body_of_node = s.rigid.body_of_node});
+  const ToolStep in_step{.dt = s.clock.dt,
+                         .step = s.clock.step,
+                         .tolerance = landing_tolerance_over_edge * s.reference.mean_edge,
+                         .body_of_node = s.rigid.body_of_node};
+  if (looks_for_fragments(s) || s.tool_edges.tets.empty()) watch_free_faces(s.tool_edges, s.topology);
+  auto touches = find_edge_touches(s.tool_edges, s.tools, s.topology, s.nodes, in_step);
+  s.nodes_on_tools = apply_tools(s.tools, s.nodes, in_step, touches, tool_deeds(s.contact, s.rigid, s.tools));
 }
 
 void book_losses(Simulation& s) {
@@ -194,7 +198,7 @@ void book_losses(Simulation& s) {
   std::vector<Index> changed = s.nodes_on_tools;
   for (const Contact& contact : s.contact.contacts)
     for (const ContactSide& side : contact.sides)
-      if (side.body == none) changed.insert(changed.end(), side.nodes.begin(), side.nodes.end());
+      if (side.is_deformable()) changed.insert(changed.end(), side.nodes.begin(), side.nodes.end());
   settle_crack_losses(s.cracks, s.topology, s.nodes, std::move(changed), impulse_options(s));
   if (looks_for_fragments(s)) tidy_faces(s.cracks);
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "contact/read_stl.hpp"
 #include "core/errors.hpp"
 
 namespace knap {
@@ -20,8 +21,9 @@ ToolShape shape_of(const ToolConfig& tool) {
       return BallTool{tool.radius};
     case ToolKind::Cylinder:
       return CylinderTool{tool.radius, tool.length};
-    case ToolKind::Plane:
     case ToolKind::Stl:
+      return SurfaceTool{load_stl(tool.file, tool.scale), tool.thickness};
+    case ToolKind::Plane:
       break;
   }
   return HalfSpace{};

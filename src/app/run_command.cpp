@@ -56,10 +56,10 @@ void check_times(const SanityCard& card, const RunConfig& config, const Simulati
   for (const ParticleConfig& particle : config.particles)
     if (particle.material.viscous_ratio > 0.0 && particle.material.relaxation_time < dt)
       throw InputError(fmt::format("material.relaxation_time = {} s: must be at least the time step, {:.3g} s",
-                                 particle.material.relaxation_time, dt));
+                                   particle.material.relaxation_time, dt));
 }
 
-std::vector<TetMesh> meshes_of(std::vector<ParticleMesh>& particles) {
+std::vector<TetMesh> meshes_of(const std::vector<ParticleMesh>& particles) {
   std::vector<TetMesh> meshes;
   for (const ParticleMesh& particle : particles) meshes.push_back(particle.mesh);
   return meshes;

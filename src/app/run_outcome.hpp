@@ -42,7 +42,7 @@ struct ParticleIdentity {
 /// What became of one of several particles, by the damage label.
 struct ParticleOutcome {
   std::string name;
-  double mass = 0.0;       ///< [kg]
+  double mass = 0.0;             ///< [kg]
   Vec3 velocity = Vec3::Zero();  ///< of its largest piece [m/s]
   BreakageMeasures measures{};
 };

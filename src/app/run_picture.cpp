@@ -35,7 +35,7 @@ void add_tools(PictureInput& input, const Simulation& s, const RunOutcome& outco
       input.wall_height = s.tools[k].state.position.z();
       continue;
     }
-    TriangleSurface surface = tool_surface(s.tools[k], centre, 2.0 * outcome.card.input.diameter);
+    DrawnSurface surface = tool_surface(s.tools[k], centre, 2.0 * outcome.card.input.diameter);
     input.tools.push_back({std::move(surface.points), std::move(surface.triangles)});
   }
 }

@@ -140,7 +140,8 @@ SanityCard card_with_estimated_step(const RunConfig& config, SanityInput input) 
 }
 
 // The node with the shortest critical step, for the reader.
-std::string step_limit(const Simulation& s, const TetMesh& mesh) {
+std::string step_limit(const Simulation& s) {
+  const std::vector<Vec3>& x = s.reference.vertices;
   Index worst = 0;
   double largest = 0.0;
   for (Index i = 0; i < s.nodes.size(); ++i) {
@@ -151,9 +152,8 @@ std::string step_limit(const Simulation& s, const TetMesh& mesh) {
   double edge = 1e300;
   for (const Index corner : s.topology.corners_of_vertex[worst])
     for (const Index other : s.topology.tet_vertices[at(corner >> 2)])
-      if (other != worst) edge = std::min(edge, (mesh.vertices[at(other)] - mesh.vertices[at(worst)]).norm());
-  return fmt::format("a node {:.3g} mm above the wall, shortest edge {:.3g} um", 1e3 * mesh.vertices[at(worst)].z(),
-                     1e6 * edge);
+      if (other != worst) edge = std::min(edge, (x[at(other)] - x[at(worst)]).norm());
+  return fmt::format("a node {:.3g} mm above the wall, shortest edge {:.3g} um", 1e3 * x[at(worst)].z(), 1e6 * edge);
 }
 
 // Per tet and step; the median over a few steps, because other programs may use the machine too.
@@ -200,7 +200,8 @@ SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle) {
 
 SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s) {
   SanityInput input = mesh_input(config, particle);
-  input.time_step = {s.clock.dt, step_limit(s, particle.mesh)};
+  input.num_tets = s.topology.num_tets();
+  input.time_step = {s.clock.dt, step_limit(s)};
   const bool timed = s.topology.num_tets() <= most_tets_to_copy;
   return card_with_cost(input, timed ? measured_elastic_cost(s) : elastic_cost / num_threads());
 }

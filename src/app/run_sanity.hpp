@@ -10,7 +10,7 @@ namespace knap {
 SanityCard estimated_card(const RunConfig& config, const Shape& shape);
 /// The card of a mesh before a run is made of it; the time step is estimated.
 SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle);
-/// The card of a run about to start; times a few steps of a copy of it.
+/// The card of a run about to start, by its first particle; times a few steps of a copy of it.
 SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s);
 
 /// When a run with this card ends: at the given time, else by itself, at the latest after 50 d/c_p, or 20 d/c_p after

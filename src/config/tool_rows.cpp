@@ -47,8 +47,10 @@ std::vector<Key> geometry_keys() {
                          "Radius of the sphere, the cylinder or the disc.")),
       only_when(type_is({Cylinder}), quantity("length", Length, "[1 um, 10 m]", required(), field(in, &C::length),
                                               "Length of the cylinder, whose ends are flat.")),
-      only_when(type_is({Platen}), quantity("thickness", Length, "[1 um, 10 m]", derived("1/4 of the radius"),
-                                            field(in, &C::thickness), "Thickness of the disc behind its face.")),
+      only_when(type_is({Platen, Stl}),
+                quantity("thickness", Length, "[1 um, 10 m]", derived("platen: 1/4 of the radius; stl: 0"),
+                         field(in, &C::thickness),
+                         "Thickness of the disc behind its face, or of the shell that an open STL surface is.")),
       only_when(type_is({Plane, Platen, Stl}),
                 vector("normal", Ratio, "[-1e6, 1e6]", value("[0, 0, 1]"), field(in, &C::normal),
                        "Where the face looks: out of the tool, towards the particle; the file's z axis is turned "

@@ -6,11 +6,21 @@
 namespace knap {
 
 std::string_view name(EnergyTerm term) {
-  static constexpr std::array<std::string_view, num_energy_terms> names{
-      "kinetic",        "strain",         "cohesive_stored",    "cohesive_dissipated",
-      "closure_impact", "crack_friction", "contact_dissipated", "tool_friction",
-      "tool_impact",    "viscous",        "rigid_vibration",    "mass_scaling",
-      "tool_work",      "tool_kinetic",   "gravity"};
+  static constexpr std::array<std::string_view, num_energy_terms> names{"kinetic",
+                                                                        "strain",
+                                                                        "cohesive_stored",
+                                                                        "cohesive_dissipated",
+                                                                        "closure_impact",
+                                                                        "crack_friction",
+                                                                        "contact_dissipated",
+                                                                        "tool_friction",
+                                                                        "tool_impact",
+                                                                        "viscous",
+                                                                        "rigid_vibration",
+                                                                        "mass_scaling",
+                                                                        "tool_work",
+                                                                        "tool_kinetic",
+                                                                        "gravity"};
   return names[static_cast<std::size_t>(term)];
 }
 

@@ -9,7 +9,7 @@ namespace {
 constexpr Index num_spokes = 64;
 constexpr Index num_rings = 32;  // of a ball, from pole to pole
 
-void add_ring(TriangleSurface& surface, double radius, double z) {
+void add_ring(DrawnSurface& surface, double radius, double z) {
   for (Index spoke = 0; spoke < num_spokes; ++spoke) {
     const double angle = 2.0 * std::numbers::pi * spoke / num_spokes;
     surface.points.emplace_back(radius * std::cos(angle), radius * std::sin(angle), z);
@@ -17,7 +17,7 @@ void add_ring(TriangleSurface& surface, double radius, double z) {
 }
 
 // Between the ring that begins at point `lower` and the next one, seen from outside.
-void add_band(TriangleSurface& surface, Index lower, Index upper) {
+void add_band(DrawnSurface& surface, Index lower, Index upper) {
   for (Index spoke = 0; spoke < num_spokes; ++spoke) {
     const Index next = (spoke + 1) % num_spokes;
     surface.triangles.push_back({lower + spoke, lower + next, upper + next});
@@ -26,7 +26,7 @@ void add_band(TriangleSurface& surface, Index lower, Index upper) {
 }
 
 // A disc over the ring that begins at point `ring`, looking up or down.
-void add_cap(TriangleSurface& surface, Index ring, bool up) {
+void add_cap(DrawnSurface& surface, Index ring, bool up) {
   const Index centre = to_index(surface.points.size());
   surface.points.emplace_back(0.0, 0.0, surface.points[at(ring)].z());
   for (Index spoke = 0; spoke < num_spokes; ++spoke) {
@@ -35,8 +35,8 @@ void add_cap(TriangleSurface& surface, Index ring, bool up) {
   }
 }
 
-TriangleSurface drum(double radius, double bottom, double top) {
-  TriangleSurface surface;
+DrawnSurface drum(double radius, double bottom, double top) {
+  DrawnSurface surface;
   add_ring(surface, radius, bottom);
   add_ring(surface, radius, top);
   add_band(surface, 0, num_spokes);
@@ -51,24 +51,24 @@ struct HalfSpaceView {
   double radius;
 };
 
-TriangleSurface surface_of(const HalfSpace&, const HalfSpaceView& view) {
-  TriangleSurface surface;
+DrawnSurface surface_of(const HalfSpace&, const HalfSpaceView& view) {
+  DrawnSurface surface;
   add_ring(surface, view.radius, 0.0);
   add_cap(surface, 0, true);
   for (Vec3& point : surface.points) point += Vec3(view.centre.x(), view.centre.y(), 0.0);
   return surface;
 }
 
-TriangleSurface surface_of(const DiscPlaten& shape, const HalfSpaceView&) {
+DrawnSurface surface_of(const DiscPlaten& shape, const HalfSpaceView&) {
   return drum(shape.radius, -shape.thickness, 0.0);
 }
 
-TriangleSurface surface_of(const CylinderTool& shape, const HalfSpaceView&) {
+DrawnSurface surface_of(const CylinderTool& shape, const HalfSpaceView&) {
   return drum(shape.radius, -0.5 * shape.length, 0.5 * shape.length);
 }
 
-TriangleSurface surface_of(const BallTool& shape, const HalfSpaceView&) {
-  TriangleSurface surface;
+DrawnSurface surface_of(const BallTool& shape, const HalfSpaceView&) {
+  DrawnSurface surface;
   for (Index ring = 1; ring < num_rings; ++ring) {
     const double angle = std::numbers::pi * ring / num_rings;
     add_ring(surface, shape.radius * std::sin(angle), -shape.radius * std::cos(angle));
@@ -81,12 +81,16 @@ TriangleSurface surface_of(const BallTool& shape, const HalfSpaceView&) {
   return surface;
 }
 
+DrawnSurface surface_of(const SurfaceTool& shape, const HalfSpaceView&) {
+  return {shape.surface.vertices, shape.surface.triangles};
+}
+
 }  // namespace
 
-TriangleSurface tool_surface(const Tool& tool, const Vec3& centre, double radius) {
+DrawnSurface tool_surface(const Tool& tool, const Vec3& centre, double radius) {
   const ToolState& state = tool.state;
   const HalfSpaceView view{state.orientation.conjugate() * Vec3(centre - state.position), radius};
-  TriangleSurface surface = std::visit([&](const auto& shape) { return surface_of(shape, view); }, tool.shape);
+  DrawnSurface surface = std::visit([&](const auto& shape) { return surface_of(shape, view); }, tool.shape);
   for (Vec3& point : surface.points) point = state.position + state.orientation * point;
   return surface;
 }

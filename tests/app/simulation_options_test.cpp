@@ -20,7 +20,6 @@ TEST(SimulationOptions, NormalImpactHasExactlyNoTangentialVelocity) {
 TEST(SimulationOptions, AngleIsFromTheWallAndAzimuthFromXTowardsY) {
   const auto oblique = simulation_options(config({"impact.angle=30deg", "impact.azimuth=90deg"}));
   EXPECT_NEAR((oblique.particles[0].velocity - 20.0 * Vec3(0.0, std::sqrt(0.75), -0.5)).norm(), 0.0, 1e-14);
-  EXPECT_EQ(oblique.tools.at(0).orientation * Vec3::UnitZ(), Vec3::UnitZ());
 }
 
 TEST(SimulationOptions, UnbreakableParticleHasNoFracture) {
@@ -29,9 +28,35 @@ TEST(SimulationOptions, UnbreakableParticleHasNoFracture) {
 }
 
 TEST(SimulationOptions, FrictionLawIsPassedOn) {
-  const auto blended = simulation_options(config({"fracture.crack_friction=blended", "impact.wall_friction=0.7"}));
+  const auto blended = simulation_options(config({"fracture.crack_friction=blended"}));
   EXPECT_EQ(blended.particles[0].fracture->law.softening_friction, SofteningFriction::Blended);
-  EXPECT_EQ(blended.tools.at(0).friction, 0.7);
+}
+
+TEST(SimulationOptions, EachParticleHasItsOwn) {
+  const SimulationOptions two = simulation_options(
+      config_from_text("[[particle]]\ndiameter = 0.002\n[[particle]]\ndiameter = 0.001\nposition = [0, 0, 0.01]\n"
+                       "velocity = [0, 0, -7]\n[particle.material]\npreset = \"gamma_alumina\"\n[particle.fracture]\n"
+                       "insertion = \"none\"\n[material]\npreset = \"zeolite_4ak\"\n[impact]\nspeed = 20\n[run]\n"
+                       "gravity = [0, 0, -9.81]\n",
+                       "case.toml"));
+  ASSERT_EQ(two.particles.size(), 2u);
+  EXPECT_EQ(two.particles[0].velocity, Vec3(0, 0, -20));
+  EXPECT_EQ(two.particles[1].velocity, Vec3(0, 0, -7));
+  EXPECT_EQ(two.particles[0].density, 1270.0);
+  EXPECT_EQ(two.particles[1].density, 1470.0);
+  EXPECT_TRUE(two.particles[0].fracture.has_value());
+  EXPECT_FALSE(two.particles[1].fracture.has_value());
+  EXPECT_EQ(two.gravity, Vec3(0, 0, -9.81));
+}
+
+TEST(SimulationOptions, RigidFragmentsArePassedOn) {
+  EXPECT_FALSE(simulation_options(config({})).rigid_fragments.enabled);
+  const SimulationOptions rigid = simulation_options(
+      config({"contact.rigid_fragments=true", "contact.restitution=0.6", "contact.wake_at_load_share=0.2"}));
+  EXPECT_TRUE(rigid.rigid_fragments.enabled);
+  EXPECT_EQ(rigid.restitution, 0.6);
+  EXPECT_EQ(rigid.rigid_fragments.load_share, 0.2);
+  EXPECT_EQ(rigid.rigid_fragments.quiet_crossings, RigidFragmentOptions{}.quiet_crossings);
 }
 
 }  // namespace

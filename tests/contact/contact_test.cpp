@@ -76,7 +76,7 @@ TEST(ContactImpulses, KeepMomentaAndOnlyDissipate) {
     cloud.nodes.v_before = cloud.nodes.v;
     const Momentum before = momentum(cloud.nodes);
     const double energy = kinetic_energy(cloud.nodes), dissipated = cloud.contact.dissipated;
-    apply_contact_impulses(cloud.contact, cloud.nodes, cloud.rigid, {.friction = 0.3, .sweeps = 6});
+    apply_contact_impulses(cloud.contact, {cloud.nodes, cloud.rigid}, {.friction = 0.3, .sweeps = 6});
     book_contact_losses(cloud.contact, cloud.nodes, cloud.rigid);
     const Momentum after = momentum(cloud.nodes);
     EXPECT_LT((after.linear - before.linear).norm(), 1e-12);
@@ -107,7 +107,7 @@ void let_meet(Cloud& cloud, double dt, int steps, const ContactOptions& options)
     drift(cloud.nodes, dt);
     if (advance_travel(cloud.contact, cloud.nodes.v, dt)) cloud.rebuild(dt);
     cloud.refresh();
-    apply_contact_impulses(cloud.contact, cloud.nodes, cloud.rigid, options);
+    apply_contact_impulses(cloud.contact, {cloud.nodes, cloud.rigid}, options);
   }
 }
 

@@ -150,6 +150,14 @@ TEST(Stl, WhatCannotBeRepairedIsRefusedByTriangle) {
   EXPECT_THAT(refusal(moebius), HasSubstr("one side only"));
 }
 
+TEST(Stl, PartsMayTouchInACorner) {
+  const Soup both = joined(cube_soup(), moved(cube_soup(), Vec3::Constant(1.0)));
+  const SurfaceTool tool{surface_of(both)};
+  EXPECT_TRUE(tool.surface.closed);
+  EXPECT_NEAR(surface_distance(tool, Vec3::Constant(0.9)).gap, -0.1, 1e-14);
+  EXPECT_NEAR(surface_distance(tool, {0.9, 0.9, 1.1}).gap, 0.1, 1e-14);
+}
+
 TEST(Stl, AMissingFileIsNamed) {
   EXPECT_THAT(message_of<InputError>([] { load_stl("no/such.stl", 1.0); }), HasSubstr("no/such.stl"));
 }

@@ -35,7 +35,7 @@ struct Cloud {
   RigidBodies rigid;
 
   void rebuild(double dt) { rebuild_candidates(contact, {topology, nodes, {}, dt}); }
-  void refresh() { refresh_contacts(contact, topology, nodes.x, rigid); }
+  void refresh() { refresh_contacts(contact, {topology, nodes.x, rigid}); }
 };
 
 /// From a mesh and the fragment of each of its tets; every node has the same mass and no velocity.

@@ -3,9 +3,11 @@
 
 #include <numbers>
 
+#include "contact/repair_surface.hpp"
 #include "core/errors.hpp"
 #include "simulation/make_simulation.hpp"
 #include "simulation/step.hpp"
+#include "tests/contact/stl_text.hpp"
 #include "tests/support/bar_mesh.hpp"
 #include "tests/support/granule.hpp"
 
@@ -143,6 +145,33 @@ TEST(DropWeight, BouncesWithMomentumAndEnergyKept) {
   const double expected = mass * (-speed - 1e4 * s.clock.time()) - tool.impulse.z();
   EXPECT_NEAR(mass * tool.velocity.z(), expected, 1e-9 * mass * speed);
   EXPECT_LT(s.ledger.max_closure_error, 1e-3);
+}
+
+/// A box of triangles about the platen's place: a sphere pressed by it must not know the difference.
+TEST(SurfaceTool, AnStlBlockPressesAsAPlatenDoes) {
+  const auto pressed = [](bool by_triangles) {
+    Granule granule = small_granule();
+    const TetMesh mesh = granule_mesh(granule);
+    ToolOptions platen;
+    platen.shape = DiscPlaten{1e-3, 0.5e-3};
+    if (by_triangles) {
+      Soup block = cube_soup(2e-3);
+      for (auto& triangle : block)
+        for (Vec3& x : triangle) x -= Vec3(1e-3, 1e-3, 2e-3);
+      platen.shape = SurfaceTool{repaired_surface(block, "block")};
+    }
+    platen.position.z() = bounding_box(mesh).high.z() + 1e-9;
+    platen.orientation = Eigen::Quaterniond(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()));
+    platen.motion = ConstantVelocity{{0, 0, -3}};
+    granule.options.tools = {wall(0.2), platen};
+    Simulation s = make_simulation(granule.options, mesh);
+    run_to(s, 3e-6);
+    return s.tools[1].state;
+  };
+  const ToolState platen = pressed(false), block = pressed(true);
+  EXPECT_LT(platen.impulse.z(), 0.0);
+  EXPECT_NEAR((block.impulse - platen.impulse).norm(), 0.0, 1e-9 * platen.impulse.norm());
+  EXPECT_NEAR(block.work, platen.work, 1e-9 * platen.work);
 }
 
 TEST(ToolPlacement, AToolInsideTheParticleIsRefusedWithNameAndDepth) {

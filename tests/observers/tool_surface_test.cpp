@@ -19,7 +19,7 @@ Tool tool_of(const ToolShape& shape) {
 }
 
 // By Gauss' theorem: positive where the triangles look outwards.
-double enclosed_volume(const TriangleSurface& surface) {
+double enclosed_volume(const DrawnSurface& surface) {
   double volume = 0.0;
   for (const auto& [a, b, c] : surface.triangles)
     volume += surface.points[at(a)].dot(surface.points[at(b)].cross(surface.points[at(c)])) / 6.0;
@@ -27,7 +27,7 @@ double enclosed_volume(const TriangleSurface& surface) {
 }
 
 // Every edge is used once in each direction.
-bool is_closed(const TriangleSurface& surface) {
+bool is_closed(const DrawnSurface& surface) {
   std::map<std::pair<Index, Index>, int> uses;
   for (const auto& [a, b, c] : surface.triangles) ++uses[{a, b}], ++uses[{b, c}], ++uses[{c, a}];
   for (const auto& [edge, n] : uses)
@@ -40,7 +40,7 @@ TEST(ToolSurface, EnclosesTheSolidAndLooksOutwards) {
                                            {4.0 / 3.0 * pi * 8.0, BallTool{2.0}},
                                            {pi * 4.0 * 3.0, CylinderTool{2.0, 3.0}}};
   for (const auto& [volume, shape] : shapes) {
-    const TriangleSurface surface = tool_surface(tool_of(shape), Vec3::Zero(), 1.0);
+    const DrawnSurface surface = tool_surface(tool_of(shape), Vec3::Zero(), 1.0);
     EXPECT_TRUE(is_closed(surface));
     EXPECT_NEAR(enclosed_volume(surface), volume, 0.01 * volume);  // 64 spokes: a circle is 0.16 % short
   }
@@ -58,7 +58,7 @@ TEST(ToolSurface, ItsPointsAreOnTheTool) {
 TEST(ToolSurface, AHalfSpaceIsShownWhereOneLooks) {
   const Tool tool = tool_of(HalfSpace{});
   const Vec3 centre(50, 60, 70);
-  const TriangleSurface disc = tool_surface(tool, centre, 3.0);
+  const DrawnSurface disc = tool_surface(tool, centre, 3.0);
   const ToolProximity near = proximity(tool, centre);
   for (const Vec3& point : disc.points) EXPECT_LE((point - (centre - near.gap * near.normal)).norm(), 3.0 + 1e-9);
 }

@@ -100,7 +100,7 @@ std::map<std::string, double> numbers_of(const Simulation& s) {
       {"cohesive_dissipated", s.ledger[EnergyTerm::CohesiveDissipated] / incident},
       {"friction_and_closure", (s.ledger[EnergyTerm::CrackFriction] + s.ledger[EnergyTerm::ClosureImpact]) / incident},
       {"cracked_area_mm2", s.cracks.cracked_area * 1e6},
-      {"largest_wall_force_N", s.totals.max_wall_force},
+      {"largest_wall_force_N", s.tools[0].state.max_force},
       {"chipping_ratio", broken.chipping_ratio},
       {"mass_outside_the_two_largest", 1.0 - broken.largest_mass_fraction - broken.second_mass_fraction},
   };
