@@ -41,7 +41,7 @@ struct RigidFragmentOptions {
   int quiet_steps = 192;         ///< likewise, in steps: the longer of both
   double noticeable_damage = 0.1;  ///< growth of a facet's mean damage that ends the quiet [-]
   double strain_share = 0.5;       ///< largest strain energy of a fragment that freezes [-]
-  double vibration_share = 0.5;    ///< largest kinetic energy beside its rigid motion [-]
+  double vibration_share = 1.0;    ///< largest kinetic energy beside its rigid motion [-]
   double loss_share = 0.01;      ///< all vibrations that freezing may take, over the reference energy of the ledger [-]
   double approach_share = 0.25;  ///< of the critical impact speed: a faster approach wakes a body [-]
   double load_share = 0.3;       ///< of the weakest facet's strength: a larger 0.9 F/d^2 wakes a body [-]

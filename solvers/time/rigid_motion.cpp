@@ -5,7 +5,7 @@
 namespace knap {
 namespace {
 
-constexpr Index bodies_per_block = 64;
+constexpr Index bodies_per_block = 16;
 // The midpoint is found by iteration, each gains a factor of half the angle of the step.
 constexpr int most_iterations = 60;
 constexpr double round_off = 1e-16;
@@ -79,21 +79,33 @@ void drift(RigidBodies& rigid, double dt) {
 }
 
 void place_nodes(const RigidBodies& rigid, NodalState& nodes) {
-  parallel_for(to_index(rigid.place.size()), [&](Index i) {
-    const Index node = rigid.nodes_of_body.items[at(i)];
-    const RigidBody& body = rigid.bodies[at(rigid.body_of_node[at(node)])];
-    const Vec3 r = body.orientation * rigid.place[at(i)];
-    nodes.x[at(node)] = padded(body.centre + r);
-    nodes.v[at(node)] = padded(body.velocity + spin(body).cross(r));
-  });
+  parallel_for(
+      rigid.num_bodies(),
+      [&](Index b) {
+        const RigidBody& body = rigid.bodies[at(b)];
+        const Mat3 rotation = body.orientation.toRotationMatrix();
+        const Vec3 w = spin(body);
+        for (Index i = rigid.nodes_of_body.offsets[at(b)]; i < rigid.nodes_of_body.offsets[at(b + 1)]; ++i) {
+          const std::size_t node = at(rigid.nodes_of_body.items[at(i)]);
+          const Vec3 r = rotation * rigid.place[at(i)];
+          nodes.x[node] = padded(body.centre + r);
+          nodes.v[node] = padded(body.velocity + w.cross(r));
+        }
+      },
+      bodies_per_block);
 }
 
 void update_node_velocities(const RigidBodies& rigid, NodalState& nodes) {
-  parallel_for(to_index(rigid.place.size()), [&](Index i) {
-    const Index node = rigid.nodes_of_body.items[at(i)];
-    const RigidBody& body = rigid.bodies[at(rigid.body_of_node[at(node)])];
-    if (has_changed(body)) nodes.v[at(node)] = padded(velocity_at(body, xyz(nodes.x[at(node)])));
-  });
+  parallel_for(
+      rigid.num_bodies(),
+      [&](Index b) {
+        const RigidBody& body = rigid.bodies[at(b)];
+        if (!has_changed(body)) return;
+        const Vec3 w = spin(body);
+        for (const Index node : rigid.nodes_of_body[b])
+          nodes.v[at(node)] = padded(body.velocity + w.cross(Vec3(xyz(nodes.x[at(node)])) - body.centre));
+      },
+      bodies_per_block);
 }
 
 }  // namespace knap
