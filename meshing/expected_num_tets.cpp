@@ -10,7 +10,7 @@ constexpr double tets_per_cubed_edge = 10.9;  // measured: sphere, box and ellip
 
 double inverse_cube(double x) { return 1.0 / (x * x * x); }
 
-// Integral over the half ball around the contact of size^-3 - element_size^-3, midpoint rule along the radius.
+// Integral over the half ball around a contact point of size^-3 - element_size^-3, midpoint rule along the radius.
 double refined_integral(const TetrahedraliseOptions& options) {
   const double extent = options.contact_extent;
   constexpr int intervals = 100;
@@ -30,7 +30,8 @@ double refined_integral(const TetrahedraliseOptions& options) {
 double expected_num_tets(const Shape& shape, const TetrahedraliseOptions& options) {
   const bool refined = options.contact_element_size > 0.0 && options.contact_extent > 0.0;
   const double far = volume(shape) * inverse_cube(options.element_size);
-  return tets_per_cubed_edge * (far + (refined ? refined_integral(options) : 0.0));
+  const auto contacts = static_cast<double>(options.contact_points.size());
+  return tets_per_cubed_edge * (far + (refined ? contacts * refined_integral(options) : 0.0));
 }
 
 }  // namespace knap

@@ -10,7 +10,7 @@
 namespace knap {
 namespace {
 
-int add_ball(const TetrahedraliseOptions& options) {
+int add_ball(const TetrahedraliseOptions& options, const Vec3& centre) {
   namespace field = gmsh::model::mesh::field;
   const int ball = field::add("Ball");
   const double inside = options.contact_element_size > 0.0 ? options.contact_element_size : options.element_size;
@@ -18,14 +18,25 @@ int add_ball(const TetrahedraliseOptions& options) {
   field::setNumber(ball, "VOut", options.element_size);
   field::setNumber(ball, "Radius", options.contact_extent);
   field::setNumber(ball, "Thickness", options.contact_extent);
-  field::setNumber(ball, "XCenter", options.contact_point.x());
-  field::setNumber(ball, "YCenter", options.contact_point.y());
-  field::setNumber(ball, "ZCenter", options.contact_point.z());
+  field::setNumber(ball, "XCenter", centre.x());
+  field::setNumber(ball, "YCenter", centre.y());
+  field::setNumber(ball, "ZCenter", centre.z());
   return ball;
 }
 
+// The smallest size that any contact point asks for.
+int add_balls(const TetrahedraliseOptions& options) {
+  namespace field = gmsh::model::mesh::field;
+  std::vector<double> balls;
+  for (const Vec3& point : options.contact_points) balls.push_back(add_ball(options, point));
+  if (balls.size() == 1) return static_cast<int>(balls.front());
+  const int smallest = field::add("Min");
+  field::setNumbers(smallest, "FieldsList", balls);
+  return smallest;
+}
+
 // A plane wave about 8 elements long.
-int add_wave(int ball, const TetrahedraliseOptions& options) {
+int add_wave(int size, const TetrahedraliseOptions& options) {
   namespace field = gmsh::model::mesh::field;
   auto random = static_cast<std::uint64_t>(options.seed);
   const Vec3 direction = random_rotation(random).col(0);
@@ -33,7 +44,7 @@ int add_wave(int ball, const TetrahedraliseOptions& options) {
   const double phase = 2.0 * std::numbers::pi * uniform01(random);
   const int wave = field::add("MathEval");  // its parser knows no exponents and no two signs in a row
   field::setString(wave, "F",
-                   fmt::format("F{} * (1 + 0.03 * Sin(({:.12f}) * x + ({:.12f}) * y + ({:.12f}) * z + {:.12f}))", ball,
+                   fmt::format("F{} * (1 + 0.03 * Sin(({:.12f}) * x + ({:.12f}) * y + ({:.12f}) * z + {:.12f}))", size,
                                k.x(), k.y(), k.z(), phase));
   return wave;
 }
@@ -41,8 +52,8 @@ int add_wave(int ball, const TetrahedraliseOptions& options) {
 }  // namespace
 
 void add_size_field(const TetrahedraliseOptions& options, bool modulated) {
-  const int ball = add_ball(options);
-  gmsh::model::mesh::field::setAsBackgroundMesh(modulated ? add_wave(ball, options) : ball);
+  const int size = add_balls(options);
+  gmsh::model::mesh::field::setAsBackgroundMesh(modulated ? add_wave(size, options) : size);
 }
 
 }  // namespace knap

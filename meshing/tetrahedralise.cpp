@@ -101,8 +101,9 @@ void check_options(const Shape& shape, const TetrahedraliseOptions& options) {
         fmt::format("0 to element_size, {:g} m", h));
   check(options.contact_extent >= 0.0 && options.contact_extent < 100.0 * lengths.maxCoeff(), "contact_extent",
         options.contact_extent, "0 to 100 times the particle's size");
-  check(options.contact_point.allFinite(), "a coordinate of contact_point", options.contact_point.sum(),
-        "finite numbers");
+  check(!options.contact_points.empty(), "the number of contact points", 0.0, "at least one");
+  for (const Vec3& point : options.contact_points)
+    check(point.allFinite(), "a coordinate of a contact point", point.sum(), "finite numbers");
   check(options.perturbation >= 0.0 && options.perturbation <= 0.3, "perturbation", options.perturbation, "0 to 0.3");
   const double tets = expected_num_tets(shape, options);
   check(tets <= most_tets, "the number of tets", tets, fmt::format("up to {:g}; choose larger elements", most_tets));
@@ -113,7 +114,7 @@ TetrahedraliseOptions in_units_of(double unit, const TetrahedraliseOptions& opti
   scaled.element_size /= unit;
   scaled.contact_element_size /= unit;
   scaled.contact_extent /= unit;
-  scaled.contact_point /= unit;
+  for (Vec3& point : scaled.contact_points) point /= unit;
   return scaled;
 }
 

@@ -88,6 +88,7 @@ Onset start_at_onset(Simulation& s, const LoadPathOptions& options) {
     tool.position += onset.path[k];
     if (const auto* motion = std::get_if<Ramp>(&tool.motion)) tool.motion = ConstantVelocity{Vec3(motion->velocity)};
   }
+  s.reference.tool_path.assign(onset.path.begin(), onset.path.end());
   s.tools = make_tools(s.options.tools, s.clock.dt);
   s.nodes.x = onset.x;
   for (std::size_t i = 0; i < s.nodes.v.size(); ++i) s.nodes.v[i] = press.speed * onset.rate[i];

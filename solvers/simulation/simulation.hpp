@@ -40,6 +40,8 @@ struct ReferenceState {
   double incident_energy = 0.0;          ///< kinetic at the start [J]; of several particles without a tool: about their
                                          ///< common mass centre
   double start_potential = 0.0;          ///< of gravity [J]
+  std::vector<Vec3> tool_path;           ///< by tool: how far it had come at time 0 [m]; empty unless the run starts at
+                                         ///< the onset of fracture
 };
 
 /// Of the tool whose falling force may end the run, see run.hpp.
@@ -90,5 +92,14 @@ struct Simulation {
   Clock clock;
   PhaseTimes phase_times{};
 };
+
+/// Whether the run starts under load, at the onset of fracture.
+inline bool starts_at_onset(const Simulation& s) { return !s.reference.tool_path.empty(); }
+
+/// How far a tool is from where the case puts it [m].
+inline Vec3 tool_displacement(const Simulation& s, std::size_t tool) {
+  const Vec3 way = s.tools[tool].state.position - s.options.tools[tool].position;
+  return starts_at_onset(s) ? Vec3(s.reference.tool_path[tool] + way) : way;
+}
 
 }  // namespace knap

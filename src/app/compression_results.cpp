@@ -32,6 +32,58 @@ std::vector<double> along(const CsvColumns& table, const std::string& stem, cons
   return sum;
 }
 
+// The mean force after time 0, as if it had been the onset's before, where the particle is at rest in effect and has no
+// waves to smooth.
+std::vector<double> smoothed_from_onset(const ForceCurve& curve, double force, double window) {
+  if (curve.time.size() < 2) return std::vector<double>(curve.time.size(), force);
+  const double spacing = curve.time[1] - curve.time[0];
+  const auto rows = static_cast<std::ptrdiff_t>(std::ceil(window / spacing)) + 1;
+  ForceCurve longer;
+  for (std::ptrdiff_t i = rows; i > 0; --i) {
+    longer.time.push_back(curve.time[0] - static_cast<double>(i) * spacing);
+    longer.impulse.push_back(curve.impulse[0] - static_cast<double>(i) * spacing * force);
+  }
+  longer.time.insert(longer.time.end(), curve.time.begin(), curve.time.end());
+  longer.impulse.insert(longer.impulse.end(), curve.impulse.begin(), curve.impulse.end());
+  std::vector<double> smoothed = smoothed_force(longer, window);
+  smoothed.erase(smoothed.begin(), smoothed.begin() + rows);
+  smoothed.front() = force;
+  return smoothed;
+}
+
+// Puts the compression before time 0 in front of the curve of what came after. The tool's way and the force between
+// the tools are those of the equilibria, where no waves are to be smoothed; the impulse is summed up by the trapezoidal
+// rule.
+void add_load_path(Compression& result, const OnsetStart& onset, double tool_speed) {
+  ForceCurve& curve = result.curve;
+  if (curve.time.empty()) return;
+  ForceCurve path;
+  std::vector<double> forces;
+  std::vector<LoadStep> steps(1);  // both just touch
+  steps.insert(steps.end(), onset.steps.begin(), onset.steps.end() - 1);
+  for (const LoadStep& step : steps) {
+    const double before = (onset.approach - step.approach) / onset.speed;
+    path.time.push_back(-before);
+    path.displacement.push_back(curve.displacement.front() - tool_speed * before);
+    forces.push_back(step.force);
+  }
+  path.impulse.resize(steps.size());
+  double impulse = 0.0, time = 0.0, force = onset.force;
+  for (std::size_t i = steps.size(); i-- > 0;) {
+    impulse -= 0.5 * (time - path.time[i]) * (force + forces[i]);
+    path.impulse[i] = impulse;
+    time = path.time[i];
+    force = forces[i];
+  }
+  const auto put_before = [](std::vector<double>& column, const std::vector<double>& earlier) {
+    column.insert(column.begin(), earlier.begin(), earlier.end());
+  };
+  put_before(curve.time, path.time);
+  put_before(curve.displacement, path.displacement);
+  put_before(curve.impulse, path.impulse);
+  put_before(result.smoothed, forces);
+}
+
 }  // namespace
 
 std::optional<std::size_t> pressing_tool(const Simulation& s) {
@@ -67,7 +119,13 @@ std::optional<Compression> compression(const Simulation& s, const RunIdentity& i
                      .curve = {.time = table.column("time [s]"),
                                .displacement = along(table, options.name + "_displacement", "m", direction),
                                .impulse = along(table, options.name + "_impulse", "N s", direction)}};
-  result.smoothed = smoothed_force(result.curve, crossings_to_smooth * identity.card.crossing_time);
+  const double window = crossings_to_smooth * identity.card.crossing_time;
+  if (identity.onset) {
+    result.smoothed = smoothed_from_onset(result.curve, identity.onset->force, window);
+    add_load_path(result, *identity.onset, driven_velocity(options.motion)->norm());
+  } else {
+    result.smoothed = smoothed_force(result.curve, window);
+  }
   result.fracture = fracture_force(result.curve, result.smoothed, drop_share, identity.card.input.diameter);
   return result;
 }

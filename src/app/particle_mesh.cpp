@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <span>
 
 #include "meshing/read_msh.hpp"
 #include "meshing/reorder.hpp"
@@ -13,24 +15,25 @@ namespace {
 // Of a particle from a file: what counts as near the contact, over its height.
 constexpr double near_over_height = 0.125;
 
-Vec3 lowest_point(const TetMesh& mesh) {
-  return *std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
-                           [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+struct Ends {
+  Vec3 low, high;
+};
+
+Ends ends(const TetMesh& mesh) {
+  const auto lower = [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); };
+  return {*std::min_element(mesh.vertices.begin(), mesh.vertices.end(), lower),
+          *std::max_element(mesh.vertices.begin(), mesh.vertices.end(), lower)};
 }
 
-double height(const TetMesh& mesh) {
-  const auto [low, high] = std::minmax_element(mesh.vertices.begin(), mesh.vertices.end(),
-                                               [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
-  return high->z() - low->z();
-}
-
-// Mean edge of the tets whose centre is at a distance in [from, to] of a point; 0 without any.
-double local_mean_edge(const TetMesh& mesh, const Vec3& point, double from, double to) {
+// Mean edge of the tets whose centre is at a distance in [from, to] of the nearest of some points; 0 without any.
+double local_mean_edge(const TetMesh& mesh, std::span<const Vec3> points, double from, double to) {
   double sum = 0.0;
   double count = 0.0;
   for (const auto& [a, b, c, d] : mesh.tets) {
     const std::array<Vec3, 4> x{mesh.vertices[at(a)], mesh.vertices[at(b)], mesh.vertices[at(c)], mesh.vertices[at(d)]};
-    const double distance = (0.25 * (x[0] + x[1] + x[2] + x[3]) - point).norm();
+    const Vec3 centre = 0.25 * (x[0] + x[1] + x[2] + x[3]);
+    double distance = std::numeric_limits<double>::infinity();
+    for (const Vec3& point : points) distance = std::min(distance, (centre - point).norm());
     if (distance < from || distance > to) continue;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = 0; j < i; ++j) sum += (x[i] - x[j]).norm(), count += 1.0;
@@ -62,10 +65,13 @@ std::optional<Shape> particle_shape(const ParticleConfig& particle) {
 }
 
 TetrahedraliseOptions mesh_options(const MeshConfig& mesh, const Shape& shape) {
+  const Vec3 lowest(0.0, 0.0, -0.5 * extent(shape).z());
+  std::vector<Vec3> contacts{lowest};
+  if (mesh.contact_on_top.value_or(false)) contacts.push_back(-lowest);
   return {.element_size = mesh.element_size,
           .contact_element_size = mesh.contact_element_size,
           .contact_extent = mesh.contact_extent,
-          .contact_point = Vec3(0.0, 0.0, -0.5 * extent(shape).z()),
+          .contact_points = std::move(contacts),
           .seed = mesh.seed,
           .perturbation = mesh.perturbation};
 }
@@ -79,11 +85,13 @@ ParticleMesh make_particle_mesh(const ParticleConfig& config) {
   particle.quality = measure_quality(mesh);
   particle.diameter = std::cbrt(6.0 / std::numbers::pi * particle.quality.total_volume);
   const bool from_file = config.shape == ParticleShape::MeshFile;
-  const double near = from_file ? near_over_height * height(mesh) : config.mesh.contact_extent;
-  const Vec3 lowest = lowest_point(mesh);
+  const auto [lowest, highest] = ends(mesh);
+  const double near = from_file ? near_over_height * (highest.z() - lowest.z()) : config.mesh.contact_extent;
+  std::vector<Vec3> contacts{lowest};
+  if (config.mesh.contact_on_top.value_or(false)) contacts.push_back(highest);
   const auto or_mean = [&](double edge) { return edge > 0.0 ? edge : particle.quality.mean_edge; };
-  particle.contact_element_size = or_mean(local_mean_edge(mesh, lowest, 0.0, near));
-  particle.element_size = or_mean(local_mean_edge(mesh, lowest, 2.0 * near, 1e300));
+  particle.contact_element_size = or_mean(local_mean_edge(mesh, contacts, 0.0, near));
+  particle.element_size = or_mean(local_mean_edge(mesh, contacts, 2.0 * near, 1e300));
   const Vec3 standing = (initial_gap(particle.contact_element_size) - lowest.z()) * Vec3::UnitZ();
   const Vec3 shift = config.position.value_or(standing);  // shapes are meshed about the origin
   for (Vec3& x : mesh.vertices) x += shift;

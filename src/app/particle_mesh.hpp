@@ -14,8 +14,8 @@ struct ParticleMesh {
   TetMesh mesh;
   MeshQuality quality;
   double diameter = 0.0;              ///< of the sphere of equal volume [m]
-  double contact_element_size = 0.0;  ///< mean edge near the lowest point [m]
-  double element_size = 0.0;          ///< mean edge far from it [m]
+  double contact_element_size = 0.0;  ///< mean edge near the contacts [m]
+  double element_size = 0.0;          ///< mean edge far from the contacts [m]
 };
 
 /// The shape of a case; nothing for a mesh file.

@@ -115,10 +115,20 @@ Json tools(const Simulation& s) {
                     {"impact_loss", state.impact_loss},
                     {"first_contact", time_of(state.first_step)},
                     {"last_contact", time_of(state.last_step)},
-                    {"displacement", vector(state.position - s.options.tools[k].position)},
+                    {"displacement", vector(tool_displacement(s, k))},
                     {"velocity", vector(state.velocity)}});
   }
   return list;
+}
+
+Json quasistatic(const OnsetStart& start) {
+  return {{"onset_force", start.force},
+          {"approach", start.approach},
+          {"strain_energy", start.strain_energy},
+          {"load_steps", start.steps.size()},
+          {"newton_iterations", start.newton_iterations},
+          {"factorisations", start.factorisations},
+          {"wall_s", start.wall_seconds}};
 }
 
 Json compression(const Compression& c) {
@@ -184,6 +194,7 @@ void write_report(const std::filesystem::path& path, const Simulation& s, const 
   report["rebound"] = rebound(outcome);
   report["cracks"] = cracks(s, outcome.cracks);
   report["tools"] = tools(s);
+  if (outcome.onset) report["quasistatic"] = quasistatic(*outcome.onset);
   if (outcome.compression) report["compression"] = compression(*outcome.compression);
   report["mass_scaling"] = {{"added_mass_fraction", s.totals.added_mass / s.reference.start.mass}};
   report["sanity"] = sanity(outcome.card);

@@ -7,6 +7,7 @@
 #include "app/compression_results.hpp"
 #include "app/fragment_tables.hpp"
 #include "app/interrupt.hpp"
+#include "app/onset_start.hpp"
 #include "app/report.hpp"
 #include "app/run_picture.hpp"
 #include "app/run_sanity.hpp"
@@ -82,6 +83,7 @@ PreparedRun prepare(const RunConfig& config, const std::string& name, RunLog& lo
   check_card(card, config, log);
   check_times(card, config, s);
   RunIdentity identity{.case_name = name, .card = card, .quality = quality};
+  if (config.quasistatic.enabled) identity.onset = start_from_onset(s, config.quasistatic, log);
   for (std::size_t i = 0; i < particles.size(); ++i)
     identity.particles.push_back({config.particles[i].name, particles[i].diameter});
   RunLimits limits = run_limits(card);

@@ -64,7 +64,8 @@ RunOutcome run_outcome(const Simulation& s, const RunIdentity& identity, const S
                      .cracks = crack_census(s),
                      .rebound = rebound(s),
                      .momentum = momentum_errors(s, 0.5 * identity.card.input.diameter),
-                     .state_hash = state_hash(s)};
+                     .state_hash = state_hash(s),
+                     .onset = identity.onset};
   const ParticleScale scale{s.reference.start.mass, identity.card.input.diameter, s.reference.mean_edge};
   outcome.strict.measures = breakage_measures(outcome.strict.fragments, scale);
   outcome.damage.measures = breakage_measures(outcome.damage.fragments, scale);

@@ -6,6 +6,7 @@
 #include "analysis/sanity_card.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "observers/fragment_census.hpp"
+#include "quasistatic/load_path.hpp"
 #include "simulation/run.hpp"
 
 namespace knap {
@@ -23,6 +24,18 @@ struct Session {
   std::int64_t first_step = 0;  ///< 0, or that of the checkpoint
   double wall_seconds = 0.0;    ///< of the steps, observers included
   int threads = 1;
+};
+
+/// How the onset of fracture, from which a run started, was found.
+struct OnsetStart {
+  double force = 0.0;           ///< between the tools [N]
+  double approach = 0.0;        ///< of the tools since both touched [m]
+  double speed = 0.0;           ///< of that approach [m/s]
+  double strain_energy = 0.0;   ///< [J]
+  std::vector<LoadStep> steps;  ///< by approach, the last one at the onset
+  int newton_iterations = 0;
+  int factorisations = 0;
+  double wall_seconds = 0.0;
 };
 
 /// What a driven tool found out about the particle's strength.
@@ -60,6 +73,7 @@ struct RunOutcome {
   MomentumErrors momentum;
   std::string state_hash;
   std::vector<ParticleOutcome> particles{};  ///< in the order of the case
+  std::optional<OnsetStart> onset{};         ///< absent unless the run started there
   std::optional<Compression> compression{};  ///< absent where no tool presses
 };
 
@@ -69,6 +83,7 @@ struct RunIdentity {
   SanityCard card;
   MeshQuality quality;
   std::vector<ParticleIdentity> particles{};  ///< none = one without a name
+  std::optional<OnsetStart> onset{};          ///< absent unless it starts there
 };
 RunOutcome run_outcome(const Simulation& s, const RunIdentity& identity, const Session& session);
 

@@ -35,7 +35,9 @@ void add_energies(std::string& text, const Simulation& s, bool utf8) {
   const double incident = s.ledger.reference;
   const bool is_incident = incident == s.reference.incident_energy;
   text += fmt::format("  energy at the end, of {:.4g} mJ {}\n", 1e3 * incident,
-                      is_incident ? "incident" : "incident and by tools");
+                      starts_at_onset(s) ? "stored at the start and by tools"
+                      : is_incident      ? "incident"
+                                         : "incident and by tools");
   for (std::size_t i = 0; i < num_energy_terms; ++i) {
     const double share = s.ledger.value[i] / incident;
     if (std::abs(share) < 5e-5) continue;
@@ -84,6 +86,11 @@ std::string strength_line(const Compression& c) {
                      c.fracture.has_dropped ? "" : "; the force has not dropped yet");
 }
 
+std::string onset_line(const OnsetStart& onset) {
+  return fmt::format("at {:.4g} N and {:.4g} um, where the run started; {} load steps in {:.1f} s", onset.force,
+                     1e6 * onset.approach, onset.steps.size(), onset.wall_seconds);
+}
+
 }  // namespace
 
 std::string summary(const Simulation& s, const RunOutcome& outcome, const std::string& folder, bool utf8) {
@@ -99,10 +106,11 @@ std::string summary(const Simulation& s, const RunOutcome& outcome, const std::s
                            name(particle.measures.breakage_class), 100.0 * particle.measures.largest_mass_fraction,
                            100.0 * particle.measures.chipping_ratio));
   add_cracks(text, outcome.cracks);
-  if (s.reference.incident_energy > 0.0 && s.options.particles.size() == 1)
+  if (s.reference.incident_energy > 0.0 && s.options.particles.size() == 1 && !starts_at_onset(s))
     add_line(text, "rebound", rebound_line(outcome));
   for (const Tool& tool : s.tools)
     add_line(text, tool.name + " force", fmt::format("{:.4g} N at most", tool.state.max_force));
+  if (outcome.onset) add_line(text, "first crack", onset_line(*outcome.onset));
   if (outcome.compression) add_line(text, "strength", strength_line(*outcome.compression));
   add_energies(text, s, utf8);
   add_line(text, "closure error", fmt::format("{:.4f} % at most", 100.0 * s.ledger.max_closure_error));

@@ -1,4 +1,4 @@
-// The rows of what is one in a case: [impact], [run], [output].
+// The rows of what is one in a case: [impact], [quasistatic], [contact], [run], [output].
 #include <algorithm>
 
 #include "config/key_builder.hpp"
@@ -35,6 +35,22 @@ std::vector<Key> impact_keys() {
            "Whether the plane z = 0 is a wall at rest."),
       only_when(walled, quantity("wall_friction", Ratio, "[0, 10]", value("0.3"), field(in, &C::wall_friction),
                                  "Coefficient of friction between particle and wall.")),
+  };
+}
+
+std::vector<Key> quasistatic_keys() {
+  using C = QuasistaticConfig;
+  constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.quasistatic; };
+  const Condition enabled{"enabled = true", [](const RunConfig& c, std::size_t) { return c.quasistatic.enabled; }};
+  return {
+      word("enabled", KeyType::Switch, {}, value("false"), field(in, &C::enabled),
+           "Whether the run starts at the onset of fracture, the elastic compression before it solved on equilibria."),
+      only_when(enabled, quantity("onset_tolerance", Ratio, "[1e-6, 0.1]", value("0.001"),
+                                  field(in, &C::onset_tolerance), "Relative error of the approach at the onset.")),
+      only_when(enabled,
+                quantity("largest_approach", Ratio, "[0.001, 0.5]", value("0.25"), field(in, &C::largest_approach),
+                         "Approach of the tools, over their distance when both touch, up to which the onset "
+                         "is looked for.")),
   };
 }
 

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "config/flat_tools.hpp"
 #include "config/schema.hpp"
 
 namespace knap {
@@ -29,18 +30,19 @@ double rounded_to_3_digits(double x) {
 
 double cubed(double x) { return x * x * x; }
 
-// Tets of the coarse particle plus those of the half ball that is refined.
+// Tets of the coarse particle plus those of the half balls that are refined.
 double estimated_num_tets(const ParticleConfig& particle) {
   const MeshConfig& mesh = particle.mesh;
   const double volume = particle_volume(particle);
-  const double refined = std::min(volume, 2.0 / 3.0 * std::numbers::pi * cubed(mesh.contact_extent));
+  const double contacts = mesh.contact_on_top.value_or(false) ? 2.0 : 1.0;
+  const double refined = std::min(volume, contacts * 2.0 / 3.0 * std::numbers::pi * cubed(mesh.contact_extent));
   return edge_cubed_per_volume * (volume / cubed(mesh.element_size) + refined / cubed(mesh.contact_element_size));
 }
 
 constexpr double thickness_over_radius = 0.25;
 constexpr std::int64_t seeds_between_particles = 1000;
 
-void add_mesh_sizes(ParticleConfig& particle) {
+void add_mesh_sizes(ParticleConfig& particle, bool loaded_from_both_ends) {
   if (particle.shape == ParticleShape::MeshFile) return;
   MeshConfig& mesh = particle.mesh;
   if (mesh.element_size == 0.0) {
@@ -50,6 +52,7 @@ void add_mesh_sizes(ParticleConfig& particle) {
   }
   if (mesh.contact_element_size == 0.0) mesh.contact_element_size = mesh.element_size;
   if (mesh.contact_extent == 0.0) mesh.contact_extent = 0.25 * smallest_extent(particle);
+  if (!mesh.contact_on_top) mesh.contact_on_top = loaded_from_both_ends;
 }
 
 void add_fracture_energy(ParticleConfig& particle) {
@@ -192,7 +195,7 @@ void add_derived_values(RunConfig& config) {
     if (particle.name.empty()) particle.name = fmt::format("particle{}", i + 1);
     for (std::int64_t* own : {&particle.mesh.seed, &particle.fracture.weibull_seed})
       if (*own == not_given) *own = seed;
-    add_mesh_sizes(particle);
+    add_mesh_sizes(particle, flat_tools_press_along_z(config));
     add_fracture_energy(particle);
   }
   for (std::size_t i = 0; i < config.tools.size(); ++i) {
@@ -214,6 +217,7 @@ std::vector<std::string> contradictions(const RunConfig& config) {
   check_names(config, found);
   check_positions(config, found);
   check_motion(config, found);
+  if (config.quasistatic.enabled) check_quasistatic(config, found);
   return found;
 }
 

@@ -92,6 +92,11 @@ std::vector<Key> mesh_keys() {
       only_when(shape_is_meshed_here(),
                 quantity("contact_extent", Length, "[10 nm, 10 m]", derived("1/4 of the smallest particle extent"),
                          field(in, &C::contact_extent), "Radius of the refined region around the contact.")),
+      only_when(shape_is_meshed_here(),
+                word("contact_on_top", KeyType::Switch, {},
+                     derived("true where flat tools load the particle from below and from above"),
+                     field(in, &C::contact_on_top),
+                     "Whether the highest point is an expected contact too, not the lowest alone.")),
       only_when(
           shape_is_meshed_here(),
           integer("seed", "[0, 1e15]", derived("run.seed, for later particles 1000 more each"), field(in, &C::seed),

@@ -12,11 +12,12 @@ namespace knap {
 inline constexpr std::int64_t not_given = -1;  ///< a seed that run.seed replaces
 
 struct MeshConfig {
-  double element_size = 0.0;          ///< far from the contact [m]; default: about 20k tets
-  double contact_element_size = 0.0;  ///< at the expected contact point [m]; default: element_size
-  double contact_extent = 0.0;        ///< radius of the refined region [m]
-  std::int64_t seed = not_given;      ///< 0 = gmsh's own mesh; others rotate or jitter it
-  double perturbation = 0.0;          ///< random displacement of interior nodes over the local edge length [-]
+  double element_size = 0.0;           ///< far from the contact [m]; default: about 20k tets
+  double contact_element_size = 0.0;   ///< at the expected contact point [m]; default: element_size
+  double contact_extent = 0.0;         ///< radius of the refined region [m]
+  std::optional<bool> contact_on_top;  ///< also at the highest point; absent only for a mesh file
+  std::int64_t seed = not_given;       ///< 0 = gmsh's own mesh; others rotate or jitter it
+  double perturbation = 0.0;           ///< random displacement of interior nodes over the local edge length [-]
   bool operator==(const MeshConfig&) const = default;
 };
 
@@ -113,6 +114,14 @@ struct ToolConfig {
   bool operator==(const ToolConfig&) const = default;
 };
 
+/// A compression that starts at the onset of fracture: what is elastic before is solved on equilibria.
+struct QuasistaticConfig {
+  bool enabled = false;
+  double onset_tolerance = 0.0;   ///< of the approach at onset [-]
+  double largest_approach = 0.0;  ///< over the distance of the tools when both touch [-]
+  bool operator==(const QuasistaticConfig&) const = default;
+};
+
 /// Fragments that have come loose.
 struct ContactConfig {
   double restitution = 0.0;             ///< between fragments carried as rigid bodies [-]
@@ -144,6 +153,7 @@ struct OutputConfig {
 struct RunConfig {
   std::vector<ParticleConfig> particles = std::vector<ParticleConfig>(1);  ///< at least one
   ImpactConfig impact;
+  QuasistaticConfig quasistatic;
   ContactConfig contact;
   std::vector<ToolConfig> tools;
   TimeConfig run;

@@ -38,6 +38,7 @@ std::vector<Key> make_schema() {
   add("fracture", fracture_keys());
   add("tool", tool_keys());
   add("impact", impact_keys());
+  add("quasistatic", quasistatic_keys());
   add("contact", contact_keys());
   add("run", run_keys());
   add("output", output_keys());
@@ -66,6 +67,8 @@ const std::vector<Section>& sections() {
       {"fracture", Scope::Particle, true, "Of all particles, or [particle.fracture] of one."},
       {"tool", Scope::Tool, false, "Written as [[tool]], once for each; without any, [impact] brings a wall."},
       {"impact", Scope::Case, false, ""},
+      {"quasistatic", Scope::Case, false,
+       "For a particle at rest between two flat tools, at rest or driven along their normals, without gravity."},
       {"contact", Scope::Case, false, "Between fragments that have come loose. Friction: fracture.sliding_friction."},
       {"run", Scope::Case, false, ""},
       {"output", Scope::Case, false, ""}};

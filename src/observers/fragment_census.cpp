@@ -77,7 +77,9 @@ Rebound rebound(const Simulation& s) {
   const Vec3 start = s.reference.start.velocity();
   const Vec3 now = momentum(s.nodes).velocity();
   const Vec3 along = start - start.dot(normal) * normal;
-  Rebound result{ratio(now.dot(normal), -start.dot(normal)), std::numeric_limits<double>::quiet_NaN()};
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  if (starts_at_onset(s)) return {unknown, unknown};  // it does not fly
+  Rebound result{ratio(now.dot(normal), -start.dot(normal)), unknown};
   if (along.norm() > 1e-9 * start.norm()) result.tangential = now.dot(along) / along.squaredNorm();
   return result;
 }
@@ -94,7 +96,7 @@ MomentumErrors momentum_errors(const Simulation& s, double radius) {
   }
   double incident = start.linear.norm();
   for (const Tool& tool : s.tools)
-    if (start.linear.norm() == 0.0) incident = std::max(incident, tool.state.impulse.norm());
+    if (start.linear.norm() == 0.0 || starts_at_onset(s)) incident = std::max(incident, tool.state.impulse.norm());
   return {ratio(linear.norm(), incident), ratio(angular.norm(), std::max(incident * radius, start.angular.norm()))};
 }
 

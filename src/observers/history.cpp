@@ -105,7 +105,7 @@ void History::add_row(const Simulation& s) {
       add_cells(cells, span > 0.0 ? Vec3((sums[sum] - last_sums_[sum]) / span) : Vec3(Vec3::Zero()));
     if (!moves(s, k)) continue;
     cells.emplace_back(s.tools[k].state.work);
-    add_cells(cells, s.tools[k].state.position - s.options.tools[k].position);
+    add_cells(cells, tool_displacement(s, k));
   }
   const CrackCensus cracks = crack_census(s);
   cells.insert(cells.end(),

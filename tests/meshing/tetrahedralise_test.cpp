@@ -29,7 +29,8 @@ std::string hash_of(const TetMesh& mesh) {
 }
 
 TetrahedraliseOptions graded_options(double h) {
-  return {.element_size = h, .contact_element_size = h / 3, .contact_extent = 0.3e-3, .contact_point = {0, 0, -1e-3}};
+  return {
+      .element_size = h, .contact_element_size = h / 3, .contact_extent = 0.3e-3, .contact_points = {{0, 0, -1e-3}}};
 }
 
 // Mean edge of the tets whose centroid is between two distances from a point.
@@ -120,9 +121,22 @@ TEST(Tetrahedralise, GradedMeshHasTheSizesAskedFor) {
   const MeshQuality quality = measure_quality(mesh);
   EXPECT_GT(quality.min_shape, 0.3);
   EXPECT_NEAR(quality.num_tets, expected_num_tets(Sphere{2e-3}, options), 0.12 * quality.num_tets);
-  EXPECT_NEAR(mean_edge_between(mesh, options.contact_point, 0.0, 0.3e-3), 0.04e-3, 0.05 * 0.04e-3);
-  EXPECT_NEAR(mean_edge_between(mesh, options.contact_point, 0.43e-3, 0.47e-3), 0.08e-3, 0.1 * 0.08e-3);
-  EXPECT_NEAR(mean_edge_between(mesh, options.contact_point, 0.7e-3, 2e-3), 0.12e-3, 0.05 * 0.12e-3);
+  EXPECT_NEAR(mean_edge_between(mesh, options.contact_points[0], 0.0, 0.3e-3), 0.04e-3, 0.05 * 0.04e-3);
+  EXPECT_NEAR(mean_edge_between(mesh, options.contact_points[0], 0.43e-3, 0.47e-3), 0.08e-3, 0.1 * 0.08e-3);
+  EXPECT_NEAR(mean_edge_between(mesh, options.contact_points[0], 0.7e-3, 2e-3), 0.12e-3, 0.05 * 0.12e-3);
+}
+
+TEST(Tetrahedralise, IsRefinedAtEveryContactPoint) {
+  TetrahedraliseOptions options = graded_options(0.18e-3);
+  options.contact_points.emplace_back(-options.contact_points[0]);
+  const TetMesh mesh = tetrahedralise(Sphere{2e-3}, options);
+  const double tets = static_cast<double>(mesh.num_tets());
+  EXPECT_NEAR(tets, expected_num_tets(Sphere{2e-3}, options), 0.12 * tets);
+  for (const Vec3& point : options.contact_points)
+    EXPECT_NEAR(mean_edge_between(mesh, point, 0.0, 0.3e-3), 0.06e-3, 0.05 * 0.06e-3);
+  EXPECT_NEAR(mean_edge_between(mesh, Vec3::Zero(), 0.0, 0.3e-3), 0.18e-3, 0.1 * 0.18e-3);
+  options.contact_points.clear();
+  EXPECT_THROW(tetrahedralise(Sphere{2e-3}, options), InputError);
 }
 
 TEST(Tetrahedralise, TheContactStaysWhereItIsWhenTheSeedTurnsTheMesh) {
@@ -130,8 +144,8 @@ TEST(Tetrahedralise, TheContactStaysWhereItIsWhenTheSeedTurnsTheMesh) {
   for (const std::int64_t seed : {1, 2, 3}) {
     options.seed = seed;
     const TetMesh mesh = tetrahedralise(Sphere{2e-3}, options);
-    EXPECT_NEAR(mean_edge_between(mesh, options.contact_point, 0.0, 0.3e-3), 0.08e-3, 0.06 * 0.08e-3);
-    EXPECT_NEAR(mean_edge_between(mesh, -options.contact_point, 0.0, 0.6e-3), 0.24e-3, 0.1 * 0.24e-3);
+    EXPECT_NEAR(mean_edge_between(mesh, options.contact_points[0], 0.0, 0.3e-3), 0.08e-3, 0.06 * 0.08e-3);
+    EXPECT_NEAR(mean_edge_between(mesh, -options.contact_points[0], 0.0, 0.6e-3), 0.24e-3, 0.1 * 0.24e-3);
   }
 }
 

@@ -157,7 +157,7 @@ TEST(Equilibrium, HertzianContact) {
   const PressedBody sphere{.mesh = tetrahedralise(Sphere{2.0 * radius}, {.element_size = 0.22,
                                                                          .contact_element_size = contact / 6.0,
                                                                          .contact_extent = 0.16,
-                                                                         .contact_point = {0.0, 0.0, -radius}}),
+                                                                         .contact_points = {{0.0, 0.0, -radius}}}),
                            .material = make_material(1.0, 0.25, 1.0),
                            .friction = 0.1};
   EquilibriumSolver solver(sphere.view(), sphere.platens());

@@ -26,7 +26,7 @@ inline TetMesh granule_mesh(const Granule& granule) {
   TetrahedraliseOptions options;
   options.element_size = granule.element_size;
   options.contact_element_size = granule.contact_element_size;
-  options.contact_point = {0.0, 0.0, -radius};
+  options.contact_points = {{0.0, 0.0, -radius}};
   options.contact_extent = granule.contact_extent;
   TetMesh mesh = tetrahedralise(Sphere{granule.diameter}, options);
   double lowest = 0.0;
