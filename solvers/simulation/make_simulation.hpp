@@ -13,4 +13,8 @@ inline Simulation make_simulation(const SimulationOptions& options, const TetMes
   return make_simulation(options, std::span(&mesh, 1));
 }
 
+/// Begins the balances of energy and momenta anew, for a state that has been changed since it was made. Velocities are
+/// those of half a step before nodes.x, forces those at nodes.x.
+void balance_from_here(Simulation& s);
+
 }  // namespace knap

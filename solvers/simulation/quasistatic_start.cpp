@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "core/errors.hpp"
+#include "simulation/make_simulation.hpp"
 #include "simulation/step.hpp"
 
 namespace knap {
@@ -62,19 +63,6 @@ void relax_branch(Simulation& s) {
   if (!s.elastic.branch.groups.empty()) update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, times_to_relax * time);
   s.elastic.branch.pending = s.elastic.branch.dissipated = 0.0;
   update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, 0.0);
-}
-
-// The velocities are those of the half step before nodes.x; so is the energy to start with.
-void balance_from_here(Simulation& s) {
-  s.reference.start = momentum(s.nodes);
-  balance_energies(s);
-  const double stored = strain_energy(s.elastic, s.nodes.x);
-  s.ledger[EnergyTerm::Strain] = stored + half_step_work(s.nodes, s.clock.dt);
-  s.reference.incident_energy = s.ledger[EnergyTerm::Kinetic] + stored;
-  s.ledger.reference = s.reference.incident_energy;
-  s.ledger.initial = s.ledger.total();
-  s.ledger.max_closure_error = 0.0;
-  s.last_good_ledger = s.ledger;
 }
 
 }  // namespace

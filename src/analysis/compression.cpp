@@ -16,7 +16,8 @@ std::vector<double> smoothed_force(const ForceCurve& curve, double window) {
   std::size_t first = 0;
   for (std::size_t i = 1; i < force.size(); ++i) {
     while (first + 1 < i && curve.time[first + 1] <= curve.time[i] - window) ++first;
-    const double span = curve.time[i] - curve.time[first];
+    // Before the first row there was no force.
+    const double span = std::max(curve.time[i] - curve.time[first], first == 0 ? window : 0.0);
     if (span > 0.0) force[i] = (curve.impulse[i] - curve.impulse[first]) / span;
   }
   return force;

@@ -84,7 +84,8 @@ void set_ticks(vtkAxis* axis, const Interval& range) {
   double step = power;
   for (const double factor : {2.0, 5.0, 10.0})
     if (width / step > most_ticks) step = factor * power;
-  const double first = std::floor(range.low / step), last = std::ceil(range.high / step);
+  double first = std::floor(range.low / step), last = std::ceil(range.high / step);
+  if (first == last) first -= 1.0, last += 1.0;  // a single value that is a multiple of the step
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
   for (double i = first; i <= last; ++i) {

@@ -51,6 +51,8 @@ Interface parted_bar(Index cells, double length, double overload, const Vec3& di
                                      .corner_mass = s.reference.corner_mass,
                                      .stress = s.elastic.stress});
   refresh_elastic_force(s.elastic, s.topology, change.changed_tets);
+  update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, 0.0);
+  balance_from_here(s);
   return bar;
 }
 

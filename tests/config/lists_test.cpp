@@ -77,9 +77,10 @@ TEST(ToolTables, RoundTrip) {
 }
 
 TEST(ToolTables, AreOverriddenByNameOrNumber) {
-  const RunConfig c = config_of(
-      compression, {"tool.upper.friction=0.5", "tool.2.friction=0.1", "tool.tool2.radius=2 mm",
-                    "tool.2.motion=rotation", "tool.2.angular_speed=18000 rpm", "tool.2.rotation_centre=[0, 0, 0]"});
+  const RunConfig c =
+      config_of(compression, {"tool.upper.friction=0.5", "tool.2.friction=0.1", "tool.tool2.radius=2 mm",
+                              "tool.2.motion=rotation", "tool.2.angular_speed=18000 rpm",
+                              "tool.2.rotation_centre=[0, 0, 0]", "tool.2.position=[0, 0, -0.01]"});
   EXPECT_EQ(c.tools[0].friction, 0.5);
   EXPECT_EQ(c.tools[1].friction, 0.1);
   EXPECT_EQ(c.tools[1].radius, 0.002);
@@ -182,9 +183,10 @@ TEST(ParticleTables, ACommonKeyMayBeForOneOfThemAlone) {
   const auto folder = std::filesystem::path(testing::TempDir()) / "knap_common_keys";
   std::filesystem::create_directories(folder);
   std::ofstream(folder / "grain.msh") << "$MeshFormat\n";
-  const std::string text = "[[particle]]\nshape = \"mesh_file\"\nmesh_file = \"" + (folder / "grain.msh").string() +
-                           "\"\n[[particle]]\ndiameter = 0.002\n[mesh]\nelement_size = \"0.2 mm\"\n"
-                           "[material]\npreset = \"plaster\"\n[impact]\nspeed = 3\n";
+  const std::string text =
+      "[[particle]]\nshape = \"mesh_file\"\nmesh_file = \"" + (folder / "grain.msh").string() +
+      "\"\n[[particle]]\ndiameter = 0.002\nposition = [0, 0, 0.01]\n[mesh]\nelement_size = \"0.2 mm\"\n"
+      "[material]\npreset = \"plaster\"\n[impact]\nspeed = 3\n";
   EXPECT_EQ(config_of(text).particles[1].mesh.element_size, 0.2e-3);
   std::filesystem::remove_all(folder);
 }

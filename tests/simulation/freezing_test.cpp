@@ -25,11 +25,7 @@ Simulation parting_bar(const SimulationOptions& options) {
     s.nodes.v[at(i)].x() += std::abs(side) < 0.1 * cell ? 0.0 : std::copysign(8.0, side);
   }
   s.nodes.v_before = s.nodes.v;
-  s.reference.start = momentum(s.nodes);
-  s.reference.incident_energy = s.ledger.reference = kinetic_energy(s.nodes);
-  balance_energies(s);
-  s.ledger.initial = s.ledger.total();
-  s.ledger.max_closure_error = 0.0;
+  balance_from_here(s);
   return s;
 }
 
@@ -194,8 +190,7 @@ TEST(Freezing, OnlyAFastCollisionWakes) {
       body.angular_momentum = Vec3::Zero();
     }
     place_nodes(s.rigid, s.nodes);
-    balance_energies(s);
-    s.ledger.initial = s.ledger.total();
+    balance_from_here(s);
     const Index breakable = static_cast<Index>(
         std::count_if(s.rigid.bodies.begin(), s.rigid.bodies.end(), [](const RigidBody& b) { return b.can_break(); }));
     bool woke = false;

@@ -40,11 +40,7 @@ Simulation tumbling_box(Index per_side, double restitution, double friction) {
       s.nodes.v[at(n)] = padded(v + w.cross(xyz(s.nodes.x[at(n)]) - centre));
   }
   s.nodes.v_before = s.nodes.v;
-  s.reference.start = momentum(s.nodes);
-  s.reference.incident_energy = s.ledger.reference = kinetic_energy(s.nodes);
-  balance_energies(s);
-  s.ledger.initial = s.ledger.total();
-  s.ledger.max_closure_error = 0.0;
+  balance_from_here(s);
   return s;
 }
 
