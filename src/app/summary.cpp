@@ -106,7 +106,7 @@ std::string summary(const Simulation& s, const RunOutcome& outcome, const std::s
                            name(particle.measures.breakage_class), 100.0 * particle.measures.largest_mass_fraction,
                            100.0 * particle.measures.chipping_ratio));
   add_cracks(text, outcome.cracks);
-  if (s.reference.incident_energy > 0.0 && s.options.particles.size() == 1 && !starts_at_onset(s))
+  if (std::isfinite(outcome.rebound.normal) && s.options.particles.size() == 1)
     add_line(text, "rebound", rebound_line(outcome));
   for (const Tool& tool : s.tools)
     add_line(text, tool.name + " force", fmt::format("{:.4g} N at most", tool.state.max_force));
