@@ -50,6 +50,7 @@ TEST_F(HistoryTest, EachToolHasItsColumns) {
   platen.motion = ConstantVelocity{Vec3(0.0, 0.0, -35.0)};
   s.options.tools.push_back(platen);
   s.tools = make_tools(s.options.tools, s.clock.dt);
+  s.tool_edges = make_edge_watch(s.tools, s.reference.mean_edge);
   History history(folder / "history.csv", 24, s.options.ledger_interval);
   advance_and_look(s, history, 150);
   history.add_last_row(s);
