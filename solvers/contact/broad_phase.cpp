@@ -185,8 +185,8 @@ void search_bucket(const ContactState& contact, const ContactSurroundings& here,
   }
 }
 
-// In the order of their first tets, so that a sweep walks the memory in order.
-void sort_by_first_tet(std::vector<ContactCandidate>& candidates, Index num_tets) {
+// By pair, so that a sweep walks the memory in order.
+void sort_by_tets(std::vector<ContactCandidate>& candidates, Index num_tets) {
   std::vector<Index> first;
   first.reserve(candidates.size());
   for (const ContactCandidate& candidate : candidates) first.push_back(candidate.tets[0]);
@@ -194,6 +194,9 @@ void sort_by_first_tet(std::vector<ContactCandidate>& candidates, Index num_tets
   std::vector<ContactCandidate> sorted;
   sorted.reserve(candidates.size());
   for (const Index i : of_tet.items) sorted.push_back(candidates[at(i)]);
+  for (Index tet = 0; tet < num_tets; ++tet)
+    std::sort(sorted.begin() + of_tet.offsets[at(tet)], sorted.begin() + of_tet.offsets[at(tet + 1)],
+              [](const ContactCandidate& a, const ContactCandidate& b) { return a.tets[1] < b.tets[1]; });
   candidates = std::move(sorted);
 }
 
@@ -220,7 +223,7 @@ void rebuild_candidates(ContactState& contact, const ContactSurroundings& here) 
     contact.candidates.insert(contact.candidates.end(), part.begin(), part.end());
     part = {};
   }
-  sort_by_first_tet(contact.candidates, here.topology.num_tets());
+  sort_by_tets(contact.candidates, here.topology.num_tets());
 }
 
 bool advance_travel(ContactState& contact, std::span<const Vec4> v, double dt) {

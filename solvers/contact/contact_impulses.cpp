@@ -67,7 +67,7 @@ void add_impulse(const Contact& c, const Vec3& impulse, const ContactParties& al
 // What the bodies are told of their contacts.
 void note_push(const Contact& c, RigidBodies& rigid) {
   for (const ContactSide& side : c.sides)
-    if (side.body != none) rigid.push[at(side.body)] += c.impulse.norm();
+    if (side.body != none) rigid.push[at(side.body)] += c.total_impulse().norm();
 }
 
 double friction(const Contact& c, const ContactParties& all, const ContactOptions& options) {
@@ -103,10 +103,7 @@ Row make_row(const Contact& c, const ContactParties& all, const ContactOptions& 
     const double a = s.dot(both * s), b = s.dot(both * t), d = t.dot(both * t);
     row.tangential_mass = 1.0 / (0.5 * (a + d) + std::hypot(0.5 * (a - d), b));
   }
-  const double approach = -c.normal.dot(relative_velocity(c, all));
-  if (c.gap > 0.0) row.target = -c.gap / all.dt;
-  if (can_rebound(c) && approach > options.slowest && -approach < row.target)
-    row.target = std::max(row.target, options.restitution * approach);
+  row.target = -c.gap / all.dt;
   return row;
 }
 
@@ -132,6 +129,31 @@ double solve(Contact& c, const Row& row, const ContactParties& all) {
   return change.norm() / row.normal_mass;
 }
 
+// Impacts of rigid bodies one after the other, each at the velocities that those before have left, until none
+// approaches any more (Guendelman, Bridson & Fedkiw 2003): each keeps the energy for e = 1 and loses some for e < 1,
+// which the simultaneous law does only at its exact solution. What still approaches then is stopped without rebound.
+void let_rebound(ContactState& contact, std::span<const Row> rows, const ContactParties& all,
+                 const ContactOptions& options) {
+  if (options.restitution == 0.0) return;
+  for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
+    bool any = false;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      Contact& c = contact.contacts[i];
+      if (!can_rebound(c)) continue;
+      const Vec3 velocity = relative_velocity(c, all);
+      const double along = velocity.dot(c.normal);
+      if (along >= rows[i].target || -along <= options.slowest) continue;
+      const double push = -(1.0 + options.restitution) * rows[i].normal_mass * along;
+      const Vec3 stop = -rows[i].tangential_mass * (velocity - along * c.normal);
+      const Vec3 impulse = in_cone(push * c.normal + stop, c.normal, rows[i].friction);
+      add_impulse(c, impulse, all);
+      c.rebound += impulse;
+      any = true;
+    }
+    if (!any) return;
+  }
+}
+
 // Until nothing changes any more.
 void settle_bodies(ContactState& contact, std::span<const Row> rows, const ContactParties& all,
                    const ContactOptions& options) {
@@ -141,7 +163,7 @@ void settle_bodies(ContactState& contact, std::span<const Row> rows, const Conta
     const Contact& c = contact.contacts[i];
     if (!is_rigid(c)) continue;
     with_body.push_back(i);
-    fastest = std::max({fastest, c.impulse.norm() / rows[i].normal_mass, rows[i].target});
+    fastest = std::max(fastest, c.impulse.norm() / rows[i].normal_mass);
   }
   for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
     double largest = 0.0;
@@ -162,6 +184,7 @@ void apply_contact_impulses(ContactState& contact, const ContactParties& all, co
   std::vector<Row> rows;
   rows.reserve(contact.contacts.size());
   for (const Contact& c : contact.contacts) rows.push_back(make_row(c, all, options));
+  let_rebound(contact, rows, all, options);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Contact& c = contact.contacts[i];
     c.impulse = in_cone(c.impulse, c.normal, rows[i].friction);
@@ -175,21 +198,23 @@ void apply_contact_impulses(ContactState& contact, const ContactParties& all, co
 
 void book_contact_losses(ContactState& contact, const NodalState& nodes, const RigidBodies& rigid) {
   for (const Contact& c : contact.contacts) {
-    if (c.impulse.isZero(0.0) || c.sides[0].tool != none) continue;
+    const Vec3 impulse = c.total_impulse();
+    if (impulse.isZero(0.0) || c.sides[0].tool != none) continue;
     contact.dissipated -=
-        0.5 * c.impulse.dot(relative_velocity(c, nodes, rigid, {}) + relative_velocity_before(c, nodes, rigid));
+        0.5 * impulse.dot(relative_velocity(c, nodes, rigid, {}) + relative_velocity_before(c, nodes, rigid));
   }
 }
 
 std::vector<ToolDeed> tool_deeds(const ContactState& contact, const RigidBodies& rigid, std::span<const Tool> tools) {
   std::vector<ToolDeed> deeds;
   for (const Contact& c : contact.contacts) {
-    if (c.sides[0].tool == none || c.impulse.isZero(0.0)) continue;
+    const Vec3 impulse = c.total_impulse();
+    if (c.sides[0].tool == none || impulse.isZero(0.0)) continue;
     const RigidBody& body = rigid.bodies[at(c.sides[1].body)];
-    const Vec3 push = c.impulse.dot(c.normal) * c.normal;
+    const Vec3 push = impulse.dot(c.normal) * c.normal;
     const Vec3 mean = 0.5 * (velocity_at(body, c.place) + velocity_before_at(body, c.place));
     const Index tool = c.sides[0].tool;
-    deeds.push_back({tool, c.place, tools[at(tool)].state.position, push, c.impulse - push, mean, c.place});
+    deeds.push_back({tool, c.place, tools[at(tool)].state.position, push, impulse - push, mean, c.place});
   }
   return deeds;
 }

@@ -11,6 +11,7 @@ namespace knap {
 namespace {
 
 constexpr Index candidates_per_block = 1024;
+constexpr Index pairs_per_block = 64;
 // Of the gap between two tets, what their way towards each other may use up until the next look; the rest is for
 // round-off.
 constexpr double part_of_gap = 0.999;
@@ -28,7 +29,8 @@ constexpr double wide_patch = 0.02;
 struct Touch {
   Index candidate = none;
   std::array<Index, 2> fragments{none, none};
-  double size = 0.0;  ///< of the smaller tet: its least height [m]
+  double size = 0.0;          ///< of the smaller tet: its least height [m]
+  bool carries_body = false;  ///< one of the tets belongs to a rigid body
   Vec3 normal = Vec3::Zero();
   OverlapPatch patch;
 };
@@ -36,15 +38,17 @@ struct Touch {
 double least_height(const TetShape& shape) { return *std::min_element(shape.height.begin(), shape.height.end()); }
 
 // The touch of a candidate if its tets overlap; otherwise sets when to look again.
-bool narrow(const ContactState& contact, ContactCandidate& candidate, double travel, const Topology& topology,
-            std::span<const Vec4> x, Touch& touch) {
+bool narrow(const ContactState& contact, ContactCandidate& candidate, double travel, const ContactScene& scene,
+            Touch& touch) {
   const auto& [first, second] = candidate.tets;
-  const TetShape a = make_tet_shape(topology.tet_nodes[at(first)], x);
-  const TetShape b = make_tet_shape(topology.tet_nodes[at(second)], x);
+  const TetShape a = make_tet_shape(scene.topology.tet_nodes[at(first)], scene.x);
+  const TetShape b = make_tet_shape(scene.topology.tet_nodes[at(second)], scene.x);
   if (!a.is_solid || !b.is_solid) return false;
   double gap = separation_by_faces(a, b);
   if (gap == 0.0) {
-    touch.patch = overlap_patch(a, contact.free_faces[at(first)], b, contact.free_faces[at(second)]);
+    touch.carries_body = scene.rigid.of_tet(first) != none || scene.rigid.of_tet(second) != none;
+    touch.patch =
+        overlap_patch(a, contact.free_faces[at(first)], b, contact.free_faces[at(second)], touch.carries_body);
     touch.size = std::min(least_height(a), least_height(b));
     touch.fragments = candidate.fragments;
     if (touch.patch.size > smallest_patch * touch.size * touch.size) return true;
@@ -78,19 +82,20 @@ Index collect_due(const ContactState& contact, Index block, std::span<Index> due
     for (const Index node : topology.tet_nodes[at(tet)]) __builtin_prefetch(&x[at(node)]);
 }
 
-std::vector<Touch> find_touches(ContactState& contact, const Topology& topology, std::span<const Vec4> x) {
+// In the order of the candidates.
+std::vector<Touch> find_touches(ContactState& contact, const ContactScene& scene) {
   const Index count = to_index(contact.candidates.size());
   std::vector<std::vector<Touch>> found(at(num_blocks(count, candidates_per_block)));
   parallel_blocks(to_index(found.size()), [&](Index block) {
     std::array<Index, std::size_t{candidates_per_block}> due;
     const Index num_due = collect_due(contact, block, due);
     for (Index i = 0; i < num_due; ++i) {
-      prefetch_candidate(contact, topology, x, std::span(due).first(at(num_due)), i);
+      prefetch_candidate(contact, scene.topology, scene.x, std::span(due).first(at(num_due)), i);
       ContactCandidate& candidate = contact.candidates[at(due[at(i)])];
       const double travel = contact.travel[at(candidate.fragments[0])] + contact.travel[at(candidate.fragments[1])];
       Touch touch;
       touch.candidate = due[at(i)];
-      if (narrow(contact, candidate, travel, topology, x, touch)) found[at(block)].push_back(touch);
+      if (narrow(contact, candidate, travel, scene, touch)) found[at(block)].push_back(touch);
     }
   });
   std::vector<Touch> touches;
@@ -109,12 +114,14 @@ std::array<Index, 2> ordered_fragments(const Touch& touch) {
 
 // A corner or an edge that goes into another fragment belongs to several tets, which each see only a part of it: the
 // direction is that of all parts together.
-void set_normals(std::span<Touch> same_fragments) {
-  for (Touch& touch : same_fragments) {
+void set_normals(std::vector<Touch>& touches, std::span<const Index> same_fragments) {
+  for (const Index i : same_fragments) {
+    Touch& touch = touches[at(i)];
     const double reach = reach_of_touch * touch.size;
     Vec3 sum = Vec3::Zero();
     double size = 0.0;
-    for (const Touch& other : same_fragments) {
+    for (const Index k : same_fragments) {
+      const Touch& other = touches[at(k)];
       if ((other.patch.centre - touch.patch.centre).squaredNorm() > reach * reach) continue;
       sum += ordered_area(other);
       size += other.patch.size;
@@ -126,14 +133,25 @@ void set_normals(std::span<Touch> same_fragments) {
 }
 
 void set_all_normals(std::vector<Touch>& touches) {
-  const auto before = [](const Touch& a, const Touch& b) {
-    return std::tuple(ordered_fragments(a), a.candidate) < std::tuple(ordered_fragments(b), b.candidate);
-  };
-  std::sort(touches.begin(), touches.end(), before);
-  for (std::size_t begin = 0, end = 0; begin < touches.size(); begin = end) {
-    while (end < touches.size() && ordered_fragments(touches[end]) == ordered_fragments(touches[begin])) ++end;
-    set_normals(std::span(touches).subspan(begin, end - begin));
+  std::vector<std::pair<std::array<Index, 2>, Index>> order;  // fragments and touch
+  order.reserve(touches.size());
+  for (std::size_t i = 0; i < touches.size(); ++i) order.emplace_back(ordered_fragments(touches[i]), to_index(i));
+  std::sort(order.begin(), order.end());
+  std::vector<Index> sorted;
+  sorted.reserve(order.size());
+  std::vector<Index> begins;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    if (i == 0 || order[i].first != order[i - 1].first) begins.push_back(to_index(i));
+    sorted.push_back(order[i].second);
   }
+  begins.push_back(to_index(order.size()));
+  parallel_for(
+      to_index(begins.size()) - 1,
+      [&](Index group) {
+        const Index begin = begins[at(group)];
+        set_normals(touches, std::span(sorted).subspan(at(begin), at(begins[at(group + 1)] - begin)));
+      },
+      pairs_per_block);
 }
 
 ContactSide side_of(Index tet, const Vec3& place, const Topology& topology, std::span<const Vec4> x,
@@ -161,11 +179,9 @@ void add_point(const ContactState& contact, const ContactScene& from, const Touc
 void add_contacts(const ContactState& contact, const ContactScene& from, const Touch& touch,
                   std::vector<Contact>& contacts) {
   if (touch.normal.isZero(0.0)) return;
-  const auto& tets = contact.candidates[at(touch.candidate)].tets;
-  const bool carries_body = from.rigid.of_tet(tets[0]) != none || from.rigid.of_tet(tets[1]) != none;
   const auto& corners = touch.patch.corners;
   const double width = (corners[1] - corners[0]).norm();
-  if (carries_body && width > wide_patch * touch.size) {
+  if (touch.carries_body && width > wide_patch * touch.size) {
     for (const Vec3& corner : corners) add_point(contact, from, touch, corner, contacts);
   } else {
     add_point(contact, from, touch, touch.patch.centre, contacts);
@@ -251,13 +267,13 @@ double fastest_against_tools(const RigidBody& body, std::span<const Tool> tools)
 }
 
 void refresh_contacts(ContactState& contact, const ContactScene& scene) {
-  std::vector<Touch> touches = find_touches(contact, scene.topology, scene.x);
+  std::vector<Touch> touches = find_touches(contact, scene);
   set_all_normals(touches);
+  // Sorted by pair, as the candidates are; tools come before all tets.
   std::vector<Contact> contacts;
-  for (const Touch& touch : touches) add_contacts(contact, scene, touch, contacts);
   add_tool_contacts(scene, contacts);
-  std::stable_sort(contacts.begin(), contacts.end(),
-                   [](const Contact& a, const Contact& b) { return a.tets < b.tets; });
+  std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) { return a.tets < b.tets; });
+  for (const Touch& touch : touches) add_contacts(contact, scene, touch, contacts);
   keep_impulses(contact.contacts, contacts);
   contact.contacts = std::move(contacts);
 }

@@ -33,8 +33,11 @@ struct Contact {
   Vec3 place = Vec3::Zero();              ///< [m]
   Vec3 normal = Vec3::Zero();             ///< unit, from the first tet to the second
   Vec3 impulse = Vec3::Zero();            ///< on the second side, the opposite on the first [N s]
+  Vec3 rebound = Vec3::Zero();            ///< likewise, of an impact of rigid bodies in this step [N s]
   double gap = 0.0;                       ///< that the step may still close [m]
   std::array<ContactSide, 2> sides{};
+
+  Vec3 total_impulse() const { return impulse + rebound; }
 };
 
 /// What stands for a tool in the place of a tet: below all tets.
@@ -47,7 +50,7 @@ struct ContactState {
   Csr surface_nodes;                         ///< fragment -> nodes of its tets with free faces
   std::vector<double> travel;                ///< per fragment, bound of its way since the last rebuild [m]
   std::vector<double> margin;                ///< per fragment, way up to which the candidates are complete [m]
-  std::vector<ContactCandidate> candidates;  ///< by first tet
+  std::vector<ContactCandidate> candidates;  ///< by tets
   std::vector<Contact> contacts;             ///< by tets and point
   Vec3 frame_velocity = Vec3::Zero();        ///< ways are measured in a frame that moves with it [m/s]
   double skin = 0.0;                         ///< least margin [m]

@@ -8,38 +8,55 @@ namespace {
 
 constexpr std::array<std::array<std::size_t, 2>, 6> edges{{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 
+/// A point by its four barycentric coordinates in the other tet and its position: cutting needs no products then.
+using Corner = Eigen::Matrix<double, 8, 1>;  // coordinates, x, y, z, 0
+
+Vec3 place(const Corner& corner) { return corner.segment<3>(4); }
+
 /// A convex polygon; four planes cut at most four corners off a triangle.
 struct Polygon {
-  std::array<Vec3, 8> corners;
+  std::array<Corner, 8> corners;
   std::size_t count = 0;
 
-  void add(const Vec3& corner) { corners[count++] = corner; }
+  void add(const Corner& corner) { corners[count++] = corner; }
 };
 
-// The part of the polygon where coordinate i of the tet is not negative (Sutherland & Hodgman 1974).
-Polygon clipped(const Polygon& polygon, const TetShape& tet, std::size_t i) {
-  std::array<double, 8> inside;
-  bool all = true;
-  for (std::size_t k = 0; k < polygon.count; ++k) {
-    inside[k] = tet.coordinate(i, polygon.corners[k]);
-    all = all && inside[k] >= 0.0;
+/// The corners of a tet as points of the other one.
+using CornersInOther = std::array<Corner, 4>;
+
+CornersInOther corners_in(const TetShape& other, const TetShape& owner) {
+  CornersInOther corners;
+  for (std::size_t c = 0; c < 4; ++c) {
+    for (std::size_t i = 0; i < 4; ++i)
+      corners[c][static_cast<Eigen::Index>(i)] = other.coordinate(i, owner.corners[c]);
+    corners[c].segment<3>(4) = owner.corners[c];
+    corners[c][7] = 0.0;
   }
-  if (all) return polygon;
-  Polygon rest;
-  for (std::size_t k = 0; k < polygon.count; ++k) {
-    const std::size_t next = k + 1 < polygon.count ? k + 1 : 0;
-    if (inside[k] >= 0.0) rest.add(polygon.corners[k]);
-    if ((inside[k] >= 0.0) == (inside[next] >= 0.0) || rest.count == rest.corners.size()) continue;
-    const double part = inside[k] / (inside[k] - inside[next]);
-    rest.add(polygon.corners[k] + part * (polygon.corners[next] - polygon.corners[k]));
-  }
-  return rest;
+  return corners;
 }
 
-Polygon face_inside(const TetShape& owner, std::size_t face, const TetShape& other) {
+// The part of the polygon where coordinate i is not negative (Sutherland & Hodgman 1974).
+void clip(Polygon& polygon, Eigen::Index i) {
+  bool all = true;
+  for (std::size_t k = 0; k < polygon.count; ++k) all = all && polygon.corners[k][i] >= 0.0;
+  if (all) return;
+  Polygon rest;
+  for (std::size_t k = 0; k < polygon.count; ++k) {
+    const Corner& here = polygon.corners[k];
+    const Corner& next = polygon.corners[k + 1 < polygon.count ? k + 1 : 0];
+    if (here[i] >= 0.0) rest.add(here);
+    if ((here[i] >= 0.0) == (next[i] >= 0.0) || rest.count == rest.corners.size()) continue;
+    rest.add(here + here[i] / (here[i] - next[i]) * (next - here));
+  }
+  polygon = rest;
+}
+
+Polygon face_inside(const CornersInOther& corners, std::size_t face) {
   Polygon polygon;
-  for (const int corner : facet_of_corner[face]) polygon.add(owner.corners[at(corner)]);
-  for (std::size_t i = 0; i < 4 && polygon.count > 0; ++i) polygon = clipped(polygon, other, i);
+  for (const int corner : facet_of_corner[face]) polygon.add(corners[at(corner)]);
+  for (Eigen::Index i = 0; i < 4; ++i)
+    if (polygon.corners[0][i] < 0.0 && polygon.corners[1][i] < 0.0 && polygon.corners[2][i] < 0.0) return {};
+  for (Eigen::Index i = 0; i < 4 && polygon.count > 0; ++i) clip(polygon, i);
   return polygon;
 }
 
@@ -52,17 +69,16 @@ struct Corners {
 // Adds the polygon's area vector, which points out of its tet, times sign.
 void add_polygon(const Polygon& polygon, double sign, OverlapPatch& patch, Corners& corners) {
   if (polygon.count < 3) return;
-  const Vec3& a = polygon.corners[0];
+  const Vec3 a = place(polygon.corners[0]);
   for (std::size_t k = 1; k + 1 < polygon.count; ++k) {
-    const Vec3& b = polygon.corners[k];
-    const Vec3& c = polygon.corners[k + 1];
+    const Vec3 b = place(polygon.corners[k]), c = place(polygon.corners[k + 1]);
     const Vec3 area = 0.5 * (b - a).cross(c - a);
     const double size = area.norm();
     patch.area += sign * 0.5 * area;
     patch.centre += size / 3.0 * (a + b + c);
     patch.size += size;
   }
-  for (std::size_t k = 0; k < polygon.count; ++k) corners.points[corners.count++] = polygon.corners[k];
+  for (std::size_t k = 0; k < polygon.count; ++k) corners.points[corners.count++] = place(polygon.corners[k]);
 }
 
 template <class Measure>
@@ -154,16 +170,18 @@ double separation_by_edges(const TetShape& a, const TetShape& b) {
   return largest_gap;
 }
 
-OverlapPatch overlap_patch(const TetShape& a, unsigned free_faces_of_a, const TetShape& b, unsigned free_faces_of_b) {
+OverlapPatch overlap_patch(const TetShape& a, unsigned free_faces_of_a, const TetShape& b, unsigned free_faces_of_b,
+                           bool needs_corners) {
   OverlapPatch patch;
   Corners corners;
+  const CornersInOther a_in_b = corners_in(b, a), b_in_a = corners_in(a, b);
   for (std::size_t face = 0; face < 4; ++face) {
-    if ((free_faces_of_a >> face & 1u) != 0) add_polygon(face_inside(a, face, b), 1.0, patch, corners);
-    if ((free_faces_of_b >> face & 1u) != 0) add_polygon(face_inside(b, face, a), -1.0, patch, corners);
+    if ((free_faces_of_a >> face & 1u) != 0) add_polygon(face_inside(a_in_b, face), 1.0, patch, corners);
+    if ((free_faces_of_b >> face & 1u) != 0) add_polygon(face_inside(b_in_a, face), -1.0, patch, corners);
   }
   if (!(patch.size > 0.0)) return {};
   patch.centre /= patch.size;
-  patch.corners = far_corners(corners, patch.centre);
+  if (needs_corners) patch.corners = far_corners(corners, patch.centre);
   return patch;
 }
 

@@ -39,7 +39,8 @@ struct OverlapPatch {
   double size = 0.0;           ///< area without direction, both sides [m2]; 0 = no free face inside the other tet
   std::array<Vec3, 3> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< far apart, see far_corners [m]
 };
-/// free_faces: bit i = face opposite corner i.
-OverlapPatch overlap_patch(const TetShape& a, unsigned free_faces_of_a, const TetShape& b, unsigned free_faces_of_b);
+/// free_faces: bit i = face opposite corner i. Corners stay zero if they are not needed.
+OverlapPatch overlap_patch(const TetShape& a, unsigned free_faces_of_a, const TetShape& b, unsigned free_faces_of_b,
+                           bool needs_corners = true);
 
 }  // namespace knap

@@ -176,6 +176,20 @@ void refuse_overlap(const Simulation& s) {
                   particle(0), particle(1), place.x(), place.y(), place.z()));
 }
 
+// With so much energy stored in the bulk [J].
+void begin_balances(Simulation& s, double stored) {
+  s.reference.start = momentum(s.nodes);
+  s.reference.start_potential = gravity_potential(s, -0.5 * s.clock.dt);
+  s.reference.incident_energy = incident_energy(s.options, s.nodes, s.reference.start) + stored;
+  s.ledger.reference = energy_to_compare_with(s);
+  balance_energies(s);
+  s.ledger[EnergyTerm::Strain] = stored + half_step_work(s.nodes, s.clock.dt);
+  s.ledger[EnergyTerm::Gravity] = 0.0;
+  s.ledger.initial = s.ledger.total();
+  s.ledger.max_closure_error = 0.0;
+  s.last_good_ledger = s.ledger;
+}
+
 }  // namespace
 
 Simulation make_simulation(const SimulationOptions& options, std::span<const TetMesh> meshes) {
@@ -203,22 +217,10 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   check_tools_are_outside(s);
   s.tool_edges = make_edge_watch(s.tools, spacing_over_edge * s.reference.mean_edge);
   update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, 0.0);
-  balance_from_here(s);
+  begin_balances(s, 0.0);
   return s;
 }
 
-void balance_from_here(Simulation& s) {
-  s.reference.start = momentum(s.nodes);
-  s.reference.start_potential = gravity_potential(s, -0.5 * s.clock.dt);
-  const double stored = strain_energy(s.elastic, s.nodes.x);
-  s.reference.incident_energy = incident_energy(s.options, s.nodes, s.reference.start) + stored;
-  s.ledger.reference = energy_to_compare_with(s);
-  balance_energies(s);
-  s.ledger[EnergyTerm::Strain] = stored + half_step_work(s.nodes, s.clock.dt);
-  s.ledger[EnergyTerm::Gravity] = 0.0;
-  s.ledger.initial = s.ledger.total();
-  s.ledger.max_closure_error = 0.0;
-  s.last_good_ledger = s.ledger;
-}
+void balance_from_here(Simulation& s) { begin_balances(s, strain_energy(s.elastic, s.nodes.x)); }
 
 }  // namespace knap

@@ -175,7 +175,7 @@ void apply_fragment_contacts(Simulation& s) {
        .restitution = s.options.restitution,
        .sweeps = s.options.contact_sweeps});
   for (const Contact& contact : s.contact.contacts)
-    if (contact.impulse.squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
+    if (contact.total_impulse().squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;
 }
 
 void apply_tool_impulses(Simulation& s) {
