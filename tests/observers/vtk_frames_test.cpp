@@ -72,8 +72,9 @@ TEST_F(VtkFramesTest, GridsHaveTheFieldsAndDoNotTouchTheRun) {
   for (const auto& field : grid.cell_fields) names.insert(field.name);
   for (const auto& field : grid.cell_int_fields) names.insert(field.name);
   for (const auto& field : grid.point_fields) names.insert(field.name);
-  EXPECT_EQ(names, (std::set<std::string>{"fragment", "fragment_strict", "damage [-]", "stress [Pa]", "von_mises [Pa]",
-                                          "largest_principal_stress [Pa]", "velocity [m/s]", "displacement [m]"}));
+  EXPECT_EQ(names, (std::set<std::string>{"fragment", "fragment_strict", "particle", "damage [-]", "stress [Pa]",
+                                          "von_mises [Pa]", "largest_principal_stress [Pa]", "velocity [m/s]",
+                                          "displacement [m]"}));
 }
 
 TEST_F(VtkFramesTest, CracksAreTheFacetsThatAreNotBonded) {
