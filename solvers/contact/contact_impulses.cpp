@@ -103,7 +103,7 @@ Row make_row(const Contact& c, const ContactParties& all, const ContactOptions& 
     const double a = s.dot(both * s), b = s.dot(both * t), d = t.dot(both * t);
     row.tangential_mass = 1.0 / (0.5 * (a + d) + std::hypot(0.5 * (a - d), b));
   }
-  row.target = -c.gap / all.dt;
+  row.target = c.gap > 0.0 ? -c.gap / all.dt : 0.0;
   return row;
 }
 
