@@ -204,6 +204,7 @@ void sort_by_tets(std::vector<ContactCandidate>& candidates, Index num_tets) {
 
 void rebuild_candidates(ContactState& contact, const ContactSurroundings& here) {
   contact.candidates.clear();
+  contact.touches.clear();
   if (contact.fragments < 2) return;
   contact.free_faces = free_faces(here.topology);
   const std::vector<Index> tets = tets_with_free_faces(contact.free_faces);

@@ -22,22 +22,14 @@ constexpr double smallest_patch = 1e-10;
 constexpr double reach_of_touch = 0.5;
 // Where the patches of a touch cancel to less than this share of their size (a plate pierced), each stands alone.
 constexpr double least_direction = 0.1;
+// While the ways of two deformable fragments together are below this share of a tet's height, their patch is kept.
+constexpr double kept_patch = 0.02;
 // A patch wider than this share of a tet's height carries a rigid body on several points.
 constexpr double wide_patch = 0.02;
 
-/// Two tets that overlap.
-struct Touch {
-  Index candidate = none;
-  std::array<Index, 2> fragments{none, none};
-  double size = 0.0;          ///< of the smaller tet: its least height [m]
-  bool carries_body = false;  ///< one of the tets belongs to a rigid body
-  Vec3 normal = Vec3::Zero();
-  OverlapPatch patch;
-};
-
 double least_height(const TetShape& shape) { return *std::min_element(shape.height.begin(), shape.height.end()); }
 
-// The touch of a candidate if its tets overlap; otherwise sets when to look again.
+// The touch of a candidate if its tets overlap; sets when to look again.
 bool narrow(const ContactState& contact, ContactCandidate& candidate, double travel, const ContactScene& scene,
             Touch& touch) {
   const auto& [first, second] = candidate.tets;
@@ -46,12 +38,19 @@ bool narrow(const ContactState& contact, ContactCandidate& candidate, double tra
   if (!a.is_solid || !b.is_solid) return false;
   double gap = separation_by_faces(a, b);
   if (gap == 0.0) {
-    touch.carries_body = scene.rigid.of_tet(first) != none || scene.rigid.of_tet(second) != none;
-    touch.patch =
-        overlap_patch(a, contact.free_faces[at(first)], b, contact.free_faces[at(second)], touch.carries_body);
-    touch.size = std::min(least_height(a), least_height(b));
     touch.fragments = candidate.fragments;
-    if (touch.patch.size > smallest_patch * touch.size * touch.size) return true;
+    touch.carries_body = scene.rigid.of_tet(first) != none || scene.rigid.of_tet(second) != none;
+    const OverlapPatch patch =
+        overlap_patch(a, contact.free_faces[at(first)], b, contact.free_faces[at(second)], touch.carries_body != 0);
+    touch.size = std::min(least_height(a), least_height(b));
+    if (patch.size > smallest_patch * touch.size * touch.size) {
+      touch.area = patch.area;
+      touch.patch_size = patch.size;
+      touch.corners = patch.corners;
+      touch.weights = a.coordinates(patch.centre);
+      if (touch.carries_body == 0) candidate.due = travel + kept_patch * touch.size;
+      return true;
+    }
     gap = separation_by_edges(a, b);  // the last to be asked, because it costs most
   }
   candidate.due = travel + part_of_gap * gap;
@@ -82,8 +81,8 @@ Index collect_due(const ContactState& contact, Index block, std::span<Index> due
     for (const Index node : topology.tet_nodes[at(tet)]) __builtin_prefetch(&x[at(node)]);
 }
 
-// In the order of the candidates.
-std::vector<Touch> find_touches(ContactState& contact, const ContactScene& scene) {
+// Those looked at now, in the order of the candidates.
+std::vector<Touch> new_touches(ContactState& contact, const ContactScene& scene, std::vector<std::uint8_t>& looked_at) {
   const Index count = to_index(contact.candidates.size());
   std::vector<std::vector<Touch>> found(at(num_blocks(count, candidates_per_block)));
   parallel_blocks(to_index(found.size()), [&](Index block) {
@@ -92,6 +91,7 @@ std::vector<Touch> find_touches(ContactState& contact, const ContactScene& scene
     for (Index i = 0; i < num_due; ++i) {
       prefetch_candidate(contact, scene.topology, scene.x, std::span(due).first(at(num_due)), i);
       ContactCandidate& candidate = contact.candidates[at(due[at(i)])];
+      looked_at[at(due[at(i)])] = 1;
       const double travel = contact.travel[at(candidate.fragments[0])] + contact.travel[at(candidate.fragments[1])];
       Touch touch;
       touch.candidate = due[at(i)];
@@ -103,9 +103,27 @@ std::vector<Touch> find_touches(ContactState& contact, const ContactScene& scene
   return touches;
 }
 
+// Of the touches of the last step those stay that were not looked at.
+void refresh_touches(ContactState& contact, const ContactScene& scene) {
+  std::vector<std::uint8_t> looked_at(contact.candidates.size(), 0);
+  const std::vector<Touch> added = new_touches(contact, scene, looked_at);
+  std::erase_if(contact.touches, [&](const Touch& touch) { return looked_at[at(touch.candidate)] != 0; });
+  std::vector<Touch> all;
+  all.reserve(contact.touches.size() + added.size());
+  std::merge(contact.touches.begin(), contact.touches.end(), added.begin(), added.end(), std::back_inserter(all),
+             [](const Touch& a, const Touch& b) { return a.candidate < b.candidate; });
+  contact.touches = std::move(all);
+  parallel_for(to_index(contact.touches.size()), [&](Index i) {
+    Touch& touch = contact.touches[at(i)];
+    touch.centre = Vec3::Zero();
+    const TetCorners& nodes = scene.topology.tet_nodes[at(contact.candidates[at(touch.candidate)].tets[0])];
+    for (std::size_t k = 0; k < 4; ++k) touch.centre += touch.weights[k] * xyz(scene.x[at(nodes[k])]);
+  });
+}
+
 // The patch's area as seen from the lower to the higher of its two fragments.
 Vec3 ordered_area(const Touch& touch) {
-  return touch.fragments[0] < touch.fragments[1] ? touch.patch.area : Vec3(-touch.patch.area);
+  return touch.fragments[0] < touch.fragments[1] ? touch.area : Vec3(-touch.area);
 }
 
 std::array<Index, 2> ordered_fragments(const Touch& touch) {
@@ -122,9 +140,9 @@ void set_normals(std::vector<Touch>& touches, std::span<const Index> same_fragme
     double size = 0.0;
     for (const Index k : same_fragments) {
       const Touch& other = touches[at(k)];
-      if ((other.patch.centre - touch.patch.centre).squaredNorm() > reach * reach) continue;
+      if ((other.centre - touch.centre).squaredNorm() > reach * reach) continue;
       sum += ordered_area(other);
-      size += other.patch.size;
+      size += other.patch_size;
     }
     if (sum.norm() < least_direction * size) sum = ordered_area(touch);
     if (touch.fragments[0] > touch.fragments[1]) sum = -sum;
@@ -179,12 +197,12 @@ void add_point(const ContactState& contact, const ContactScene& from, const Touc
 void add_contacts(const ContactState& contact, const ContactScene& from, const Touch& touch,
                   std::vector<Contact>& contacts) {
   if (touch.normal.isZero(0.0)) return;
-  const auto& corners = touch.patch.corners;
+  const auto& corners = touch.corners;
   const double width = (corners[1] - corners[0]).norm();
-  if (touch.carries_body && width > wide_patch * touch.size) {
+  if (touch.carries_body != 0 && width > wide_patch * touch.size) {
     for (const Vec3& corner : corners) add_point(contact, from, touch, corner, contacts);
   } else {
-    add_point(contact, from, touch, touch.patch.centre, contacts);
+    add_point(contact, from, touch, touch.centre, contacts);
   }
 }
 
@@ -267,13 +285,13 @@ double fastest_against_tools(const RigidBody& body, std::span<const Tool> tools)
 }
 
 void refresh_contacts(ContactState& contact, const ContactScene& scene) {
-  std::vector<Touch> touches = find_touches(contact, scene);
-  set_all_normals(touches);
+  refresh_touches(contact, scene);
+  set_all_normals(contact.touches);
   // Sorted by pair, as the candidates are; tools come before all tets.
   std::vector<Contact> contacts;
   add_tool_contacts(scene, contacts);
   std::sort(contacts.begin(), contacts.end(), [](const Contact& a, const Contact& b) { return a.tets < b.tets; });
-  for (const Touch& touch : touches) add_contacts(contact, scene, touch, contacts);
+  for (const Touch& touch : contact.touches) add_contacts(contact, scene, touch, contacts);
   keep_impulses(contact.contacts, contacts);
   contact.contacts = std::move(contacts);
 }

@@ -15,6 +15,20 @@ struct ContactCandidate {
   double due = 0.0;  ///< travel of both fragments together from which on they may touch [m]
 };
 
+/// Two tets that overlap: a candidate with its patch (tet_overlap.hpp), which is kept while the two travel a little.
+struct Touch {
+  Index candidate = none;
+  std::array<Index, 2> fragments{none, none};
+  double size = 0.0;                ///< of the smaller tet: its least height [m]
+  Vec3 area = Vec3::Zero();         ///< of the patch, from the first to the second tet [m2]
+  double patch_size = 0.0;          ///< its area without direction [m2]
+  std::array<double, 4> weights{};  ///< barycentric coordinates of its centre in the first tet
+  std::array<Vec3, 3> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< of the patch, for rigid bodies [m]
+  Vec3 centre = Vec3::Zero();                                             ///< now [m]
+  Vec3 normal = Vec3::Zero();                                             ///< now: unit, from the first to the second
+  std::uint8_t carries_body = 0;                                          ///< one of the tets belongs to a rigid body
+};
+
 /// One body's part of a contact: a rigid body, a tool, or the four nodes of a tet with the barycentric weights of the
 /// point.
 struct ContactSide {
@@ -51,6 +65,7 @@ struct ContactState {
   std::vector<double> travel;                ///< per fragment, bound of its way since the last rebuild [m]
   std::vector<double> margin;                ///< per fragment, way up to which the candidates are complete [m]
   std::vector<ContactCandidate> candidates;  ///< by tets
+  std::vector<Touch> touches;                ///< by candidate
   std::vector<Contact> contacts;             ///< by tets and point
   Vec3 frame_velocity = Vec3::Zero();        ///< ways are measured in a frame that moves with it [m/s]
   double skin = 0.0;                         ///< least margin [m]

@@ -48,6 +48,15 @@ constexpr auto fields(const ContactCandidate*) {
   return std::tuple{Field{"tets", &ContactCandidate::tets}, Field{"fragments", &ContactCandidate::fragments},
                     Field{"due", &ContactCandidate::due}};
 }
+constexpr auto fields(const Touch*) {
+  return std::tuple{Field{"candidate", &Touch::candidate},
+                    Field{"fragments", &Touch::fragments},
+                    Field{"size", &Touch::size},
+                    Field{"area", &Touch::area},
+                    Field{"patch_size", &Touch::patch_size},
+                    Field{"weights", &Touch::weights},
+                    Field{"carries_body", &Touch::carries_body}};
+}
 // Its sides follow from the positions before they are used again; what is kept is what the next step starts from.
 constexpr auto fields(const Contact*) {
   return std::tuple{Field{"tets", &Contact::tets}, Field{"point", &Contact::point}, Field{"place", &Contact::place},
@@ -259,6 +268,7 @@ void visit_persistent(Visitor visit, Run& s) {
   visit.plain("contact.travel", s.contact.travel);
   visit.plain("contact.margin", s.contact.margin);
   visit.structs("contact.candidates", s.contact.candidates);
+  visit.structs("contact.touches", s.contact.touches);
   visit.structs("contact.contacts", s.contact.contacts);
   visit.structs("rigid.bodies", s.rigid.bodies);
   visit.plain("rigid.body_of_node", s.rigid.body_of_node);
