@@ -6,8 +6,8 @@
 namespace knap {
 namespace {
 
-// Contacts have settled when a sweep changes no velocity by more than this share of the largest approach.
-constexpr double settled = 1e-10;
+// A contact has settled when a sweep changes its velocity by no more than this share of the largest change of the step.
+constexpr double settled = 1e-6;
 
 Vec3 side_velocity(const ContactSide& side, const Vec3& place, const std::vector<Vec4>& v, const RigidBodies& rigid,
                    std::span<const Tool> tools) {
@@ -154,7 +154,7 @@ void let_rebound(ContactState& contact, std::span<const Row> rows, const Contact
   }
 }
 
-// Until nothing changes any more.
+// Until nothing changes any more; in each sweep only the contacts of bodies that the one before has moved.
 void settle_bodies(ContactState& contact, std::span<const Row> rows, const ContactParties& all,
                    const ContactOptions& options) {
   std::vector<std::size_t> with_body;
@@ -165,10 +165,21 @@ void settle_bodies(ContactState& contact, std::span<const Row> rows, const Conta
     with_body.push_back(i);
     fastest = std::max(fastest, c.impulse.norm() / rows[i].normal_mass);
   }
+  std::vector<std::uint8_t> moved(all.rigid.bodies.size(), 1), moves(moved.size());
   for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
-    double largest = 0.0;
-    for (const std::size_t i : with_body) largest = std::max(largest, solve(contact.contacts[i], rows[i], all));
-    if (largest <= settled * fastest) return;
+    std::fill(moves.begin(), moves.end(), 0);
+    for (const std::size_t i : with_body) {
+      Contact& c = contact.contacts[i];
+      const auto has_moved = [&](const ContactSide& side) {
+        return side.body != none && (moved[at(side.body)] != 0 || moves[at(side.body)] != 0);
+      };
+      if (!has_moved(c.sides[0]) && !has_moved(c.sides[1])) continue;
+      if (solve(c, rows[i], all) <= settled * fastest) continue;
+      for (const ContactSide& side : c.sides)
+        if (side.body != none) moves[at(side.body)] = 1;
+    }
+    if (std::count(moves.begin(), moves.end(), 1) == 0) return;
+    std::swap(moved, moves);
   }
 }
 
