@@ -12,7 +12,7 @@
 namespace knap {
 namespace {
 
-// A tool that could touch a body within so many steps wakes it.
+// A triangulated tool that could touch a body within so many steps wakes it.
 constexpr double steps_ahead = 2.0;
 
 // Those of no body work from now on, the others sleep.
@@ -63,8 +63,8 @@ void note_approaches(Simulation& s) {
 
 bool must_wake(const Simulation& s, Index b) {
   const RigidBody& body = s.rigid.bodies[at(b)];
-  if (is_near_edged_tool(s, s.rigid.nodes_of_body[b], body,
-                         steps_ahead * s.clock.dt * fastest_against_tools(body, s.tools)))
+  if (is_near_triangulated_tool(s, s.rigid.nodes_of_body[b], body,
+                                steps_ahead * s.clock.dt * fastest_against_tools(body, s.tools)))
     return true;
   if (!body.can_break()) return false;
   const RigidFragmentOptions& options = s.options.rigid_fragments;

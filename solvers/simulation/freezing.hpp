@@ -13,8 +13,8 @@ namespace knap {
 void freeze_quiet_fragments(Simulation& s);
 
 /// Makes those bodies deformable again that the contacts just found, or their loads so far, could break, and those that
-/// a tool is about to touch: tools act on nodes. At the start of a step, before the bulk forces. Returns whether any
-/// has woken: the contacts must then be found anew.
+/// a triangulated tool is about to touch: it acts on nodes alone, other tools meet bodies as fragments do. At the start
+/// of a step, before the bulk forces. Returns whether any has woken: the contacts must then be found anew.
 bool wake_loaded_bodies(Simulation& s);
 
 /// Takes this step's contact impulses into the loads of the bodies.

@@ -169,13 +169,15 @@ std::optional<QuietFragment> quiet_fragment(const Simulation& s, std::span<const
   fragment.body = rigid_body(s, tets, fragment.nodes);
   fragment.vibration = kinetic_energy_of(s.nodes, fragment.nodes) - kinetic_energy(fragment.body);
   if (!may_freeze(s, fragment)) return std::nullopt;
-  if (is_near_edged_tool(s, fragment.nodes, fragment.body, clear_of_tools * s.reference.mean_edge)) return std::nullopt;
+  if (is_near_triangulated_tool(s, fragment.nodes, fragment.body, clear_of_tools * s.reference.mean_edge))
+    return std::nullopt;
   return fragment;
 }
 
 }  // namespace
 
-bool is_near_edged_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance) {
+bool is_near_triangulated_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body,
+                               double distance) {
   for (const Tool& tool : s.tools) {
     if (!std::holds_alternative<SurfaceTool>(tool.shape)) continue;
     if (proximity(tool, body.centre).gap > body.radius + distance) continue;

@@ -43,7 +43,7 @@ struct RigidBodies {
   Csr nodes_of_body;
   std::vector<Vec3> place;  ///< by nodes_of_body.items: of the node from the centre, body axes [m]
 
-  /// What the contact layer tells, by body, for the present step, in the order of the bodies.
+  /// What the contacts tell, by body, for the present step, in the order of the bodies.
   std::vector<double> approach;  ///< largest approach speed of its contacts, before the solve [m/s]
   std::vector<double> push;      ///< sum of the magnitudes of its contact impulses, tools included [N s]
 
