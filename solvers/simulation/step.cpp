@@ -8,15 +8,13 @@
 #include "cohesive/insertion.hpp"
 #include "contact/broad_phase.hpp"
 #include "contact/contact_pairs.hpp"
-#include "fem/stable_time_step.hpp"
 #include "simulation/freezing.hpp"
+#include "simulation/mass_scaling.hpp"
 #include "time/rigid_motion.hpp"
 
 namespace knap {
 namespace {
 
-// Pieces that splitting makes may come this near to their critical step before mass is added.
-constexpr double largest_step_safety = 0.9;
 // A node this much of the mean edge inside a tool is not thrown out: far more than round-off, far less than matters.
 constexpr double landing_tolerance_over_edge = 1e-6;
 
@@ -27,35 +25,6 @@ VertexImpulseOptions impulse_options(const Simulation& s) {
 bool looks_for_fragments(const Simulation& s) { return s.clock.step % s.options.label_interval == 0; }
 
 bool has_cracks(const Simulation& s) { return !s.cracks.vertices.empty(); }
-
-// The corners of a vertex star that one node has.
-std::vector<Index> corners_of_node(const Topology& topology, Index vertex, Index node) {
-  std::vector<Index> corners;
-  for (const Index corner : topology.corners_of_vertex[vertex])
-    if (topology.node_of_corner(corner) == node) corners.push_back(corner);
-  return corners;
-}
-
-// Adds mass to pieces of a split vertex for which the time step would be more than the largest safe part of critical.
-void scale_masses(Simulation& s, std::span<const Index> split_vertices) {
-  const double critical = s.clock.dt / std::max(largest_step_safety, s.options.step_safety);
-  for (const Index vertex : split_vertices)
-    for (const Index corner : s.topology.corners_of_vertex[vertex]) {
-      const Index node = s.topology.node_of_corner(corner);
-      const auto corners = corners_of_node(s.topology, vertex, node);
-      if (corners.front() != corner) continue;  // each node once
-      const double needed = smallest_mass(corners, s.reference.corner_stiffness, critical);
-      const double missing = needed - s.nodes.mass[at(node)];
-      if (missing <= 0.0) continue;
-      s.nodes.mass[at(node)] = needed;
-      s.totals.added_mass += missing;
-      const Vec3 added = missing * xyz(s.nodes.v[at(node)]);
-      s.totals.added_linear += added;
-      s.totals.added_angular += Vec3(xyz(s.nodes.x[at(node)])).cross(added);
-      s.totals.mass_scaling_energy += 0.5 * missing * s.nodes.v[at(node)].squaredNorm() +
-                                      missing * node_potential(s.options.gravity, s.nodes, node, -0.5 * s.clock.dt);
-    }
-}
 
 void insert_new_cracks(Simulation& s) {
   if (!can_break(s.options) || s.clock.step % s.options.insertion_interval != 0) return;
@@ -173,6 +142,7 @@ void apply_fragment_contacts(Simulation& s) {
       s.contact, {s.nodes, s.rigid, s.tools, s.clock.dt},
       {.pairs = {s.reference.pair_friction, s.reference.particle_of_tet, to_index(s.options.particles.size())},
        .restitution = s.options.restitution,
+       .slowest = 2.0 * s.options.gravity.norm() * s.clock.dt,
        .sweeps = s.options.contact_sweeps});
   for (const Contact& contact : s.contact.contacts)
     if (contact.total_impulse().squaredNorm() > 0.0) s.totals.last_contact_step = s.clock.step;

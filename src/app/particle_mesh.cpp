@@ -48,6 +48,31 @@ TetMesh raw_mesh(const ParticleConfig& config) {
   return morton_ordered(mesh);
 }
 
+// A mesh with its sizes; what is nearer than `near` [m] to its lowest, or also its highest, point is at the contact.
+ParticleMesh measured(TetMesh mesh, std::optional<double> near, bool contact_on_top) {
+  ParticleMesh particle;
+  particle.mesh = std::move(mesh);
+  particle.quality = measure_quality(particle.mesh);
+  particle.diameter = std::cbrt(6.0 / std::numbers::pi * particle.quality.total_volume);
+  const auto [lowest, highest] = ends(particle.mesh);
+  const double radius = near.value_or(near_over_height * (highest.z() - lowest.z()));
+  std::vector<Vec3> contacts{lowest};
+  if (contact_on_top) contacts.push_back(highest);
+  const auto or_mean = [&](double edge) { return edge > 0.0 ? edge : particle.quality.mean_edge; };
+  particle.contact_element_size = or_mean(local_mean_edge(particle.mesh, contacts, 0.0, radius));
+  particle.element_size = or_mean(local_mean_edge(particle.mesh, contacts, 2.0 * radius, 1e300));
+  return particle;
+}
+
+// What puts it just above the plane z = 0 [m].
+Vec3 standing(const ParticleMesh& particle) {
+  return (initial_gap(particle.contact_element_size) - ends(particle.mesh).low.z()) * Vec3::UnitZ();
+}
+
+void shift(TetMesh& mesh, const Vec3& way) {
+  for (Vec3& x : mesh.vertices) x += way;
+}
+
 }  // namespace
 
 std::optional<Shape> particle_shape(const ParticleConfig& particle) {
@@ -79,22 +104,16 @@ TetrahedraliseOptions mesh_options(const MeshConfig& mesh, const Shape& shape) {
 double initial_gap(double contact_element_size) { return 1e-3 * contact_element_size; }
 
 ParticleMesh make_particle_mesh(const ParticleConfig& config) {
-  ParticleMesh particle;
-  particle.mesh = raw_mesh(config);
-  TetMesh& mesh = particle.mesh;
-  particle.quality = measure_quality(mesh);
-  particle.diameter = std::cbrt(6.0 / std::numbers::pi * particle.quality.total_volume);
-  const bool from_file = config.shape == ParticleShape::MeshFile;
-  const auto [lowest, highest] = ends(mesh);
-  const double near = from_file ? near_over_height * (highest.z() - lowest.z()) : config.mesh.contact_extent;
-  std::vector<Vec3> contacts{lowest};
-  if (config.mesh.contact_on_top.value_or(false)) contacts.push_back(highest);
-  const auto or_mean = [&](double edge) { return edge > 0.0 ? edge : particle.quality.mean_edge; };
-  particle.contact_element_size = or_mean(local_mean_edge(mesh, contacts, 0.0, near));
-  particle.element_size = or_mean(local_mean_edge(mesh, contacts, 2.0 * near, 1e300));
-  const Vec3 standing = (initial_gap(particle.contact_element_size) - lowest.z()) * Vec3::UnitZ();
-  const Vec3 shift = config.position.value_or(standing);  // shapes are meshed about the origin
-  for (Vec3& x : mesh.vertices) x += shift;
+  std::optional<double> near;
+  if (config.shape != ParticleShape::MeshFile) near = config.mesh.contact_extent;
+  ParticleMesh particle = measured(raw_mesh(config), near, config.mesh.contact_on_top.value_or(false));
+  shift(particle.mesh, config.position.value_or(standing(particle)));  // shapes are meshed about the origin
+  return particle;
+}
+
+ParticleMesh particle_on_plane(TetMesh mesh) {
+  ParticleMesh particle = measured(std::move(mesh), std::nullopt, false);
+  shift(particle.mesh, standing(particle));
   return particle;
 }
 

@@ -28,5 +28,7 @@ double initial_gap(double contact_element_size);
 
 /// Meshes the shape, or reads and checks the mesh file, and puts it where it starts. Throws InputError.
 ParticleMesh make_particle_mesh(const ParticleConfig& config);
+/// A mesh put just above the plane z = 0.
+ParticleMesh particle_on_plane(TetMesh mesh);
 
 }  // namespace knap

@@ -40,13 +40,17 @@ void remove_frames(const fs::path& folder, std::string_view stem) {
 
 // All but effective.toml, by which a folder is known as a run's: the new one replaces it.
 void remove_results(const RunFolder& folder) {
-  for (const char* name :
-       {"log.txt", "report.json", "history.csv", "fragments.csv", "size_distribution.csv", "picture.png",
-        "checkpoint.h5", "frames.pvd", "cracks.pvd", "tools.pvd", "force_displacement.csv", "force_displacement.png"})
+  for (const char* name : {"log.txt", "report.json", "history.csv", "fragments.csv", "size_distribution.csv",
+                           "picture.png", "checkpoint.h5", "frames.pvd", "cracks.pvd", "tools.pvd",
+                           "force_displacement.csv", "force_displacement.png", "impacts.csv", "impacts.png"})
     fs::remove(folder.path / name);
   remove_frames(folder.path / "frames", "frame_");
   remove_frames(folder.path / "cracks", "cracks_");
   remove_frames(folder.path / "tools", "tools_");
+  for (int number = 1; fs::is_directory(folder.impact(number).path); ++number) {
+    remove_results(folder.impact(number));
+    if (fs::is_empty(folder.impact(number).path)) fs::remove(folder.impact(number).path);
+  }
 }
 
 void make_folder(const fs::path& path) {
@@ -98,7 +102,7 @@ void check_resumable(const RunFolder& folder, const RunConfig& config) {
   if (!holds_a_run(folder, config))
     throw InputError(fmt::format("{}: holds no run of Knap to resume (no effective.toml)", folder.path.string()));
   require_same_case(folder, config);
-  if (!fs::exists(folder.checkpoint()))
+  if (!fs::exists((config.impact.repeat > 1 ? folder.impact(1) : folder).checkpoint()))
     throw InputError(
         fmt::format("{}: has no checkpoint.h5 to resume from; start again with --overwrite", folder.path.string()));
 }

@@ -23,6 +23,10 @@ struct RunFolder {
   std::filesystem::path force_displacement() const { return path / "force_displacement.csv"; }
   std::filesystem::path force_plot() const { return path / "force_displacement.png"; }
   std::filesystem::path checkpoint() const { return path / "checkpoint.h5"; }
+  // Of repeated impacts, each with a folder of its own in this one.
+  std::filesystem::path impacts() const { return path / "impacts.csv"; }
+  std::filesystem::path impacts_plot() const { return path / "impacts.png"; }
+  RunFolder impact(int number) const { return {path / ("impact_" + std::to_string(number))}; }
 };
 
 /// Keeps other runs out of a folder as long as it lives, or the process does.

@@ -90,7 +90,7 @@ Session run_session(PreparedRun& run, const SessionOptions& options, RunLog& log
   if (!options.quiet) progress.finish(s);
   log.before_printing([] {});
   history.add_last_row(s);
-  if (session.stop_reason == StopReason::Interrupted) checkpoints.write(s);
+  if (session.stop_reason == StopReason::Interrupted || options.keeps_end) checkpoints.write(s);
   return session;
 }
 

@@ -21,6 +21,8 @@ std::vector<Key> impact_keys() {
   using C = ImpactConfig;
   constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.impact; };
   const Condition nothing_else_moves{"there is no [[tool]] and a particle has no velocity", has_nothing_else_to_move};
+  const Condition repeated{"repeat > 1", [](const RunConfig& c, std::size_t) { return c.impact.repeat > 1; }};
+  const std::vector<std::string> orientations{"random", "kept"};
   const Condition walled{"there is a wall", [](const RunConfig& c, std::size_t) { return has_wall(c); }};
   return {
       quantity("speed", Speed, "[1 mm/s, 5 km/s]", required_when(nothing_else_moves), field(in, &C::speed),
@@ -35,6 +37,11 @@ std::vector<Key> impact_keys() {
            "Whether the plane z = 0 is a wall at rest."),
       only_when(walled, quantity("wall_friction", Ratio, "[0, 10]", value("0.3"), field(in, &C::wall_friction),
                                  "Coefficient of friction between particle and wall.")),
+      integer("repeat", "[1, 1000]", value("1"), field(in, &C::repeat),
+              "Number of impacts: after each the largest piece, at rest again, is thrown with its damage."),
+      only_when(repeated, word("repeat_orientation", KeyType::Choice, orientations, value("random"),
+                               choice(in, &C::repeat_orientation, orientations),
+                               "How that piece lies: at random by run.seed, or as it lay in the particle.")),
   };
 }
 

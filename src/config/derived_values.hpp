@@ -1,7 +1,4 @@
 #pragma once
-#include <string>
-#include <vector>
-
 #include "config/run_config.hpp"
 
 namespace knap {
@@ -12,11 +9,11 @@ double particle_volume(const ParticleConfig& particle);
 /// Smallest extent of the shape along x, y, z [m]; 0 for a mesh file.
 double smallest_extent(const ParticleConfig& particle);
 
+/// Tets of its mesh, to expect; not of a mesh file.
+double estimated_num_tets(const ParticleConfig& particle);
+
 /// Fills the derived values that are still 0: element sizes, contact extent, and the fracture energy
 /// G_c = K_IC^2 (1 - nu^2)/E (Irwin 1957, plane strain) when toughness is given.
 void add_derived_values(RunConfig& config);
-
-/// Mistakes that only show when several keys are seen together, one message each, beginning with the key.
-std::vector<std::string> contradictions(const RunConfig& config);
 
 }  // namespace knap

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <optional>
 
+#include "config/contradictions.hpp"
 #include "config/derived_values.hpp"
 #include "config/given_keys.hpp"
 #include "config/material_presets.hpp"

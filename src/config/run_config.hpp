@@ -77,6 +77,12 @@ struct ParticleConfig {
   bool operator==(const ParticleConfig&) const = default;
 };
 
+/// How a piece lies that is thrown again.
+enum class PieceOrientation {
+  Random,  ///< anyhow, by run.seed
+  Kept     ///< as it lay in the particle, so that it meets the wall with the same side
+};
+
 struct ImpactConfig {
   double speed = 0.0;          ///< [m/s]; 0 = none given, at rest
   double angle = 0.0;          ///< from the wall plane [rad]; pi/2 = normal
@@ -84,6 +90,8 @@ struct ImpactConfig {
   Vec3 spin = Vec3::Zero();    ///< angular velocity at the start [rad/s]
   std::optional<bool> wall;    ///< whether there is the plane z = 0; absent = where there are no tools
   double wall_friction = 0.0;  ///< [-]
+  int repeat = 1;              ///< impacts one after the other, each of the largest piece of the one before
+  PieceOrientation repeat_orientation = PieceOrientation::Random;
   bool operator==(const ImpactConfig&) const = default;
 };
 
