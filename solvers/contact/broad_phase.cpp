@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "contact/free_faces.hpp"
 #include "contact/tet_overlap.hpp"
@@ -18,9 +20,9 @@ constexpr Index buckets_per_block = 1024;
 // A fragment's margin lets it go on as it does for so many steps, but is at most so many times the least one: wider
 // boxes would meet too many others.
 constexpr double steps_ahead = 48.0;
-constexpr double widest_margin = 4.0;
+constexpr double widest_margin = 8.0;
 
-using Box = Eigen::AlignedBox3d;
+using Box = Eigen::AlignedBox3f;  // rounded outwards
 using Cell = Eigen::Vector3i;
 
 /// A tet with a free face and its fat box.
@@ -28,6 +30,12 @@ struct SurfaceTet {
   Index tet = none;
   Index fragment = none;
   Box box;
+};
+
+/// The tets with free faces.
+struct Surface {
+  std::vector<SurfaceTet> tets;
+  std::vector<TetShape> shapes;
 };
 
 /// A box in a cell.
@@ -42,9 +50,9 @@ struct BoxGrid {
   std::vector<Entry> entries;
   Csr of_bucket;  ///< bucket -> entries
 
-  Cell cell(const Vec3& p) const {
+  Cell cell(const Eigen::Vector3f& p) const {
     // Beyond a billion cells all is one cell: slow there, but right.
-    return (p / cell_size).array().floor().max(-1e9).min(1e9).cast<int>();
+    return (p.cast<double>() / cell_size).array().floor().max(-1e9).min(1e9).cast<int>();
   }
   Index bucket(const Cell& c) const {
     const auto part = [](int i, std::uint32_t prime) { return static_cast<std::uint32_t>(i) * prime; };
@@ -93,19 +101,29 @@ void set_margins(ContactState& contact, const ContactSurroundings& here) {
       16);
 }
 
-std::vector<SurfaceTet> fat_boxes(const ContactState& contact, const ContactSurroundings& here,
-                                  std::span<const Index> tets) {
-  std::vector<SurfaceTet> boxes(tets.size());
+Box fat_box(const TetShape& shape, double margin) {
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  Eigen::AlignedBox3d exact;
+  for (const Vec3& corner : shape.corners) exact.extend(corner);
+  Box box;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    box.min()[k] = std::nextafter(static_cast<float>(exact.min()[k] - margin), -infinity);
+    box.max()[k] = std::nextafter(static_cast<float>(exact.max()[k] + margin), infinity);
+  }
+  return box;
+}
+
+Surface make_surface(const ContactState& contact, const ContactSurroundings& here, std::span<const Index> tets) {
+  Surface surface{std::vector<SurfaceTet>(tets.size()), std::vector<TetShape>(tets.size())};
   parallel_for(to_index(tets.size()), [&](Index i) {
-    SurfaceTet& fat = boxes[at(i)];
+    TetShape& shape = surface.shapes[at(i)];
+    shape = make_tet_shape(here.topology.tet_nodes[at(tets[at(i)])], here.nodes.x);
+    SurfaceTet& fat = surface.tets[at(i)];
     fat.tet = tets[at(i)];
     fat.fragment = contact.fragment_of_tet[at(fat.tet)];
-    for (const Index node : here.topology.tet_nodes[at(fat.tet)]) fat.box.extend(Vec3(xyz(here.nodes.x[at(node)])));
-    const double margin = contact.margin[at(fat.fragment)];
-    fat.box.min().array() -= margin;
-    fat.box.max().array() += margin;
+    fat.box = fat_box(shape, contact.margin[at(fat.fragment)]);
   });
-  return boxes;
+  return surface;
 }
 
 template <class Visit>
@@ -120,7 +138,7 @@ void visit_cells(const BoxGrid& grid, const Box& box, Visit&& visit) {
 double typical_extent(const std::vector<SurfaceTet>& boxes) {
   std::vector<double> extents;
   extents.reserve(boxes.size());
-  for (const SurfaceTet& fat : boxes) extents.push_back(fat.box.sizes().maxCoeff());
+  for (const SurfaceTet& fat : boxes) extents.push_back(static_cast<double>(fat.box.sizes().maxCoeff()));
   const auto middle = extents.begin() + static_cast<std::ptrdiff_t>(extents.size() / 2);
   std::nth_element(extents.begin(), middle, extents.end());
   return *middle;
@@ -153,34 +171,65 @@ bool are_joined(const SurfaceTet& a, const SurfaceTet& b, const ContactSurroundi
   return false;
 }
 
-// Adds the candidate of two boxes that meet, unless the tets are too far apart after all.
-void add_candidate(const ContactState& contact, const ContactSurroundings& here, const SurfaceTet& a,
-                   const SurfaceTet& b, std::vector<ContactCandidate>& found) {
+// Adds the candidate of two surface tets whose boxes meet, unless they are too far apart after all.
+void add_candidate(const ContactState& contact, const ContactSurroundings& here, const Surface& surface, Index first,
+                   Index second, std::vector<ContactCandidate>& found) {
+  const SurfaceTet& a = surface.tets[at(first)];
+  const SurfaceTet& b = surface.tets[at(second)];
   const double reach = contact.margin[at(a.fragment)] + contact.margin[at(b.fragment)];
-  const double gap = separation_by_faces(make_tet_shape(here.topology.tet_nodes[at(a.tet)], here.nodes.x),
-                                         make_tet_shape(here.topology.tet_nodes[at(b.tet)], here.nodes.x));
+  const double gap = separation_by_faces(surface.shapes[at(first)], surface.shapes[at(second)]);
   if (gap > reach || are_joined(a, b, here)) return;
   found.push_back({{a.tet, b.tet}, {a.fragment, b.fragment}, gap});
 }
 
+/// The boxes of a bucket coordinate by coordinate, so that one is compared with many at a time.
+struct Bucket {
+  std::array<std::vector<float>, 3> low, high;
+  std::vector<Index> fragment;
+  std::vector<Index> meets;  ///< of each box: whether it meets the one in question
+
+  void fill(const BoxGrid& grid, const Surface& surface, std::span<const Index> entries) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      low[k].resize(entries.size());
+      high[k].resize(entries.size());
+    }
+    fragment.resize(entries.size());
+    meets.resize(entries.size());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      const SurfaceTet& fat = surface.tets[at(grid.entries[at(entries[i])].surface_tet)];
+      fragment[i] = fat.fragment;
+      for (std::size_t k = 0; k < 3; ++k) {
+        low[k][i] = fat.box.min()[static_cast<Eigen::Index>(k)];
+        high[k][i] = fat.box.max()[static_cast<Eigen::Index>(k)];
+      }
+    }
+  }
+  // Those behind box i that meet it and are of another fragment.
+  void compare(std::size_t i) {
+    const float x0 = low[0][i], x1 = high[0][i], y0 = low[1][i], y1 = high[1][i], z0 = low[2][i], z1 = high[2][i];
+    const Index own = fragment[i];
+    for (std::size_t j = i + 1; j < fragment.size(); ++j)
+      meets[j] = (low[0][j] <= x1) & (high[0][j] >= x0) & (low[1][j] <= y1) & (high[1][j] >= y0) & (low[2][j] <= z1) &
+                 (high[2][j] >= z0) & (fragment[j] != own);
+  }
+};
+
 // Pairs that share several cells are found in the cell of the lowest corner that both boxes have.
 void search_bucket(const ContactState& contact, const ContactSurroundings& here, const BoxGrid& grid,
-                   const std::vector<SurfaceTet>& boxes, std::span<const Index> bucket,
-                   std::vector<ContactCandidate>& found) {
-  for (std::size_t i = 0; i < bucket.size(); ++i) {
-    const Entry& first = grid.entries[at(bucket[i])];
-    const SurfaceTet& a = boxes[at(first.surface_tet)];
-    for (std::size_t j = i + 1; j < bucket.size(); ++j) {
-      const Entry& second = grid.entries[at(bucket[j])];
-      if (second.cell != first.cell) continue;
-      const SurfaceTet& b = boxes[at(second.surface_tet)];
-      if (a.fragment == b.fragment || !a.box.intersects(b.box)) continue;
-      if (grid.cell(a.box.min().cwiseMax(b.box.min())) != first.cell) continue;
-      if (a.tet < b.tet) {
-        add_candidate(contact, here, a, b, found);
-      } else {
-        add_candidate(contact, here, b, a, found);
-      }
+                   const Surface& surface, std::span<const Index> entries, std::vector<ContactCandidate>& found) {
+  thread_local Bucket bucket;
+  bucket.fill(grid, surface, entries);
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const Entry& first = grid.entries[at(entries[i])];
+    const Box& box = surface.tets[at(first.surface_tet)].box;
+    bucket.compare(i);
+    for (std::size_t j = i + 1; j < entries.size(); ++j) {
+      if (bucket.meets[j] == 0) continue;
+      const Entry& second = grid.entries[at(entries[j])];
+      const Box& other = surface.tets[at(second.surface_tet)].box;
+      if (second.cell != first.cell || grid.cell(box.min().cwiseMax(other.min())) != first.cell) continue;
+      const auto [low, high] = std::minmax(first.surface_tet, second.surface_tet);  // ascending as the tets are
+      add_candidate(contact, here, surface, low, high, found);
     }
   }
 }
@@ -200,24 +249,37 @@ void sort_by_tets(std::vector<ContactCandidate>& candidates, Index num_tets) {
   candidates = std::move(sorted);
 }
 
+// Those stay whose tets are still candidates and have the free faces that they had; they are asked for their drift.
+void keep_touches(ContactState& contact, std::span<const ContactCandidate> old_candidates,
+                  std::span<const std::uint8_t> old_free_faces) {
+  std::size_t next = 0;
+  std::erase_if(contact.touches, [&](Touch& touch) {
+    const auto& tets = old_candidates[at(touch.candidate)].tets;
+    while (next < contact.candidates.size() && contact.candidates[next].tets < tets) ++next;
+    if (next == contact.candidates.size() || contact.candidates[next].tets != tets) return true;
+    touch.candidate = to_index(next);
+    return std::any_of(tets.begin(), tets.end(),
+                       [&](Index tet) { return old_free_faces[at(tet)] != contact.free_faces[at(tet)]; });
+  });
+}
+
 }  // namespace
 
 void rebuild_candidates(ContactState& contact, const ContactSurroundings& here) {
-  contact.candidates.clear();
-  contact.touches.clear();
-  if (contact.fragments < 2) return;
-  contact.free_faces = free_faces(here.topology);
+  const std::vector<ContactCandidate> old_candidates = std::exchange(contact.candidates, {});
+  if (contact.fragments < 2) return contact.touches.clear();
+  const std::vector<std::uint8_t> old_free_faces = std::exchange(contact.free_faces, free_faces(here.topology));
   const std::vector<Index> tets = tets_with_free_faces(contact.free_faces);
-  if (tets.empty()) return;
+  if (tets.empty()) return contact.touches.clear();
   contact.surface_nodes = nodes_by_fragment(contact, here.topology, tets);
   set_margins(contact, here);
-  const std::vector<SurfaceTet> boxes = fat_boxes(contact, here, tets);
-  const BoxGrid grid = make_grid(boxes);
+  const Surface surface = make_surface(contact, here, tets);
+  const BoxGrid grid = make_grid(surface.tets);
   std::vector<std::vector<ContactCandidate>> found(at(num_blocks(grid.of_bucket.num_rows(), buckets_per_block)));
   parallel_blocks(to_index(found.size()), [&](Index block) {
     const Index end = std::min(grid.of_bucket.num_rows(), (block + 1) * buckets_per_block);
     for (Index bucket = block * buckets_per_block; bucket < end; ++bucket)
-      search_bucket(contact, here, grid, boxes, grid.of_bucket[bucket], found[at(block)]);
+      search_bucket(contact, here, grid, surface, grid.of_bucket[bucket], found[at(block)]);
   });
   for (auto& part : found) {
     make_room(contact.candidates, contact.candidates.size() + part.size());
@@ -225,6 +287,7 @@ void rebuild_candidates(ContactState& contact, const ContactSurroundings& here) 
     part = {};
   }
   sort_by_tets(contact.candidates, here.topology.num_tets());
+  keep_touches(contact, old_candidates, old_free_faces);
 }
 
 bool advance_travel(ContactState& contact, std::span<const Vec4> v, double dt) {

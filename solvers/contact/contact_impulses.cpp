@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/parallel.hpp"
+
 namespace knap {
 namespace {
 
 // A contact has settled when a sweep changes its velocity by no more than this share of the largest change of the step.
 constexpr double settled = 1e-6;
+constexpr Index rows_per_block = 256;
 
 Vec3 side_velocity(const ContactSide& side, const Vec3& place, const std::vector<Vec4>& v, const RigidBodies& rigid,
                    std::span<const Tool> tools) {
   if (side.body != none) return velocity_at(rigid.bodies[at(side.body)], place);
   if (side.tool != none) return tools[at(side.tool)].velocity_at(place);
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = 0; i < 4; ++i) sum += side.weights[i] * xyz(v[at(side.nodes[i])]);
-  return sum;
+  Vec4 sum = Vec4::Zero();
+  for (std::size_t i = 0; i < 4; ++i) sum += side.weights[i] * v[at(side.nodes[i])];
+  return xyz(sum);
 }
 
 // Of the second side relative to the first; no tools.
@@ -78,32 +81,62 @@ double friction(const Contact& c, const ContactParties& all, const ContactOption
   return pairs.table[at(first * pairs.num_particles + second)];
 }
 
-/// What the sweeps need of a contact.
-struct Row {
-  double friction = 0.0;         ///< [-]
-  double normal_mass = 0.0;      ///< [kg]
-  double tangential_mass = 0.0;  ///< for the direction that moves most easily: the sweeps converge from below [kg]
-  double target = 0.0;           ///< normal velocity to reach [m/s]
+/// What the sweeps need of a contact. Most are of two deformable tets: all of these lies together, in vectors of four.
+struct alignas(64) Row {
+  Vec4 normal = Vec4::Zero();
+  Vec4 impulse = Vec4::Zero();        ///< on the second side [N s]
+  std::array<double, 8> weights{};    ///< of the nodes' velocities in that of the second side relative to the first [-]
+  std::array<double, 8> mobility{};   ///< of the nodes: velocity per impulse [1/kg]
+  std::array<Index, 8> nodes{};       ///< of the first and of the second side
+  double friction = 0.0;              ///< [-]
+  double normal_mass = 0.0;           ///< [kg]
+  double tangential_mass = 0.0;       ///< for the direction that moves most easily: the sweeps converge from below [kg]
+  double target = 0.0;                ///< normal velocity to reach [m/s]
+  bool is_of_deformable_tets = true;  ///< else only friction, masses and target are used
 };
 
 bool is_rigid(const Contact& c) { return c.sides[0].body != none || c.sides[1].body != none; }
 // Both sides are rigid.
 bool can_rebound(const Contact& c) { return !c.sides[0].is_deformable() && !c.sides[1].is_deformable(); }
 
-Row make_row(const Contact& c, const ContactParties& all, const ContactOptions& options) {
+Row deformable_row(const Contact& c, const NodalState& nodes) {
+  Row row;
+  row.normal = padded(c.normal);
+  row.impulse = padded(c.impulse);
+  double inverse_mass = 0.0;
+  for (std::size_t k = 0; k < 8; ++k) {
+    const ContactSide& side = c.sides[k / 4];
+    row.nodes[k] = side.nodes[k % 4];
+    row.weights[k] = (k < 4 ? -1.0 : 1.0) * side.weights[k % 4];
+    row.mobility[k] = row.weights[k] / nodes.mass[at(row.nodes[k])];
+    inverse_mass += row.weights[k] * row.mobility[k];
+  }
+  row.normal_mass = row.tangential_mass = 1.0 / inverse_mass;
+  return row;
+}
+
+Row rigid_row(const Contact& c, const ContactParties& all) {
   const Mat3 both = mobility(c.sides[0], c.place, all) + mobility(c.sides[1], c.place, all);
   Row row;
-  row.friction = friction(c, all, options);
-  const double along = c.normal.dot(both * c.normal);
-  row.normal_mass = 1.0 / along;
-  row.tangential_mass = row.normal_mass;
-  if (is_rigid(c)) {
-    // Of the mobility in the tangential plane, [a b; b d] for two tangents, the largest eigenvalue.
-    const Vec3 s = c.normal.unitOrthogonal(), t = c.normal.cross(s);
-    const double a = s.dot(both * s), b = s.dot(both * t), d = t.dot(both * t);
-    row.tangential_mass = 1.0 / (0.5 * (a + d) + std::hypot(0.5 * (a - d), b));
-  }
+  row.is_of_deformable_tets = false;
+  row.normal_mass = 1.0 / c.normal.dot(both * c.normal);
+  // Of the mobility in the tangential plane, [a b; b d] for two tangents, the largest eigenvalue.
+  const Vec3 s = c.normal.unitOrthogonal(), t = c.normal.cross(s);
+  const double a = s.dot(both * s), b = s.dot(both * t), d = t.dot(both * t);
+  row.tangential_mass = 1.0 / (0.5 * (a + d) + std::hypot(0.5 * (a - d), b));
   row.target = c.gap > 0.0 ? -c.gap / all.dt : 0.0;
+  return row;
+}
+
+// Kept from step to step: the system takes time to give so much memory.
+std::vector<Row>& workspace() {
+  thread_local std::vector<Row> rows;
+  return rows;
+}
+
+Row make_row(const Contact& c, const ContactParties& all, const ContactOptions& options) {
+  Row row = is_rigid(c) ? rigid_row(c, all) : deformable_row(c, all.nodes);
+  row.friction = friction(c, all, options);
   return row;
 }
 
@@ -116,7 +149,7 @@ Vec3 in_cone(const Vec3& trial, const Vec3& normal, double friction) {
   return push * normal + tangential;
 }
 
-// Solves one contact; returns the change of its velocity.
+// Solves a contact of a rigid body; returns the change of its velocity.
 double solve(Contact& c, const Row& row, const ContactParties& all) {
   const Vec3 velocity = relative_velocity(c, all);
   const double along = velocity.dot(c.normal);
@@ -127,6 +160,68 @@ double solve(Contact& c, const Row& row, const ContactParties& all) {
   add_impulse(c, change, all);
   c.impulse = impulse;
   return change.norm() / row.normal_mass;
+}
+
+double dot3(const Vec4& a, const Vec4& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+Vec4 in_cone(const Vec4& trial, const Row& row) {
+  const double along = dot3(trial, row.normal);
+  if (along <= 0.0) return Vec4::Zero();
+  const Vec4 push = along * row.normal;
+  const Vec4 drag = trial - push;
+  const double size2 = dot3(drag, drag), limit = row.friction * along;
+  if (size2 <= limit * limit) return trial;
+  return push + limit / std::sqrt(size2) * drag;
+}
+
+void add_impulse(const Row& row, const Vec4& impulse, std::vector<Vec4>& v) {
+  for (std::size_t k = 0; k < 8; ++k) v[at(row.nodes[k])] += row.mobility[k] * impulse;
+}
+
+// The same of two deformable tets.
+void solve(Row& row, std::vector<Vec4>& v) {
+  Vec4 velocity = Vec4::Zero();
+  for (std::size_t k = 0; k < 8; ++k) velocity += row.weights[k] * v[at(row.nodes[k])];
+  if (row.impulse.isZero(0.0) && dot3(velocity, row.normal) >= 0.0) return;
+  const Vec4 impulse = in_cone(row.impulse - row.normal_mass * velocity, row);
+  const Vec4 change = impulse - row.impulse;
+  add_impulse(row, change, v);
+  row.impulse = impulse;
+}
+
+// The nodes of contacts lie anywhere in memory: asked for ahead. Inlined because GCC takes a function that only
+// prefetches for one without effect.
+[[gnu::always_inline]] inline void prefetch_nodes(const std::vector<Row>& rows, std::size_t i,
+                                                  const std::vector<Vec4>& v) {
+  constexpr std::size_t ahead = 6;
+  if (i + ahead >= rows.size()) return;
+  for (const Index node : rows[i + ahead].nodes) __builtin_prefetch(&v[at(node)], 1);
+}
+
+// The impulses that the contacts begin with.
+void warm_start(ContactState& contact, std::vector<Row>& rows, const ContactParties& all) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    prefetch_nodes(rows, i, all.nodes.v);
+    Row& row = rows[i];
+    Contact& c = contact.contacts[i];
+    if (row.is_of_deformable_tets) {  // its impulse has been in the cone and turned with it
+      if (!row.impulse.isZero(0.0)) add_impulse(row, row.impulse, all.nodes.v);
+    } else {
+      c.impulse = in_cone(c.impulse, c.normal, row.friction);
+      add_impulse(c, c.impulse, all);
+    }
+  }
+}
+
+void sweep(ContactState& contact, std::vector<Row>& rows, const ContactParties& all) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    prefetch_nodes(rows, i, all.nodes.v);
+    if (rows[i].is_of_deformable_tets) {
+      solve(rows[i], all.nodes.v);
+    } else {
+      solve(contact.contacts[i], rows[i], all);
+    }
+  }
 }
 
 // Impacts of rigid bodies one after the other, each at the velocities that those before have left, until none
@@ -192,17 +287,16 @@ Vec3 relative_velocity(const Contact& c, const NodalState& nodes, const RigidBod
 }
 
 void apply_contact_impulses(ContactState& contact, const ContactParties& all, const ContactOptions& options) {
-  std::vector<Row> rows;
-  rows.reserve(contact.contacts.size());
-  for (const Contact& c : contact.contacts) rows.push_back(make_row(c, all, options));
+  std::vector<Row>& rows = workspace();
+  rows.resize(contact.contacts.size());
+  parallel_for(
+      to_index(rows.size()), [&](Index i) { rows[at(i)] = make_row(contact.contacts[at(i)], all, options); },
+      rows_per_block);
   let_rebound(contact, rows, all, options);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    Contact& c = contact.contacts[i];
-    c.impulse = in_cone(c.impulse, c.normal, rows[i].friction);
-    add_impulse(c, c.impulse, all);
-  }
-  for (int sweep = 0; sweep < options.sweeps; ++sweep)
-    for (std::size_t i = 0; i < rows.size(); ++i) solve(contact.contacts[i], rows[i], all);
+  warm_start(contact, rows, all);
+  for (int i = 0; i < options.sweeps; ++i) sweep(contact, rows, all);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].is_of_deformable_tets) contact.contacts[i].impulse = xyz(rows[i].impulse);
   settle_bodies(contact, rows, all, options);
   for (const Contact& c : contact.contacts) note_push(c, all.rigid);
 }

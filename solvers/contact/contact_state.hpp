@@ -15,14 +15,15 @@ struct ContactCandidate {
   double due = 0.0;  ///< travel of both fragments together from which on they may touch [m]
 };
 
-/// Two tets that overlap: a candidate with its patch (tet_overlap.hpp), which is kept while the two travel a little.
+/// Two tets that overlap: a candidate with its patch (tet_overlap.hpp), which is kept while they move little against
+/// each other.
 struct Touch {
   Index candidate = none;
-  std::array<Index, 2> fragments{none, none};
-  double size = 0.0;                ///< of the smaller tet: its least height [m]
-  Vec3 area = Vec3::Zero();         ///< of the patch, from the first to the second tet [m2]
-  double patch_size = 0.0;          ///< its area without direction [m2]
-  std::array<double, 4> weights{};  ///< barycentric coordinates of its centre in the first tet
+  double size = 0.0;                                       ///< of the smaller tet: its least height [m]
+  Vec3 area = Vec3::Zero();                                ///< of the patch, from the first to the second tet [m2]
+  double patch_size = 0.0;                                 ///< its area without direction [m2]
+  std::array<double, 4> weights{};                         ///< barycentric coordinates of its centre in the first tet
+  std::array<std::array<double, 4>, 4> first_in_second{};  ///< likewise of the first tet's corners in the second
   std::array<Vec3, 3> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< of the patch, for rigid bodies [m]
   Vec3 centre = Vec3::Zero();                                             ///< now [m]
   Vec3 normal = Vec3::Zero();                                             ///< now: unit, from the first to the second
@@ -49,9 +50,11 @@ struct Contact {
   Vec3 impulse = Vec3::Zero();            ///< on the second side, the opposite on the first [N s]
   Vec3 rebound = Vec3::Zero();            ///< likewise, of an impact of rigid bodies in this step [N s]
   double gap = 0.0;                       ///< that the step may still close [m]
+  std::array<double, 4> anchor{};         ///< barycentric coordinates of the place in the first tet
   std::array<ContactSide, 2> sides{};
 
   Vec3 total_impulse() const { return impulse + rebound; }
+  bool is_of_tool() const { return tets[0] < none; }
 };
 
 /// What stands for a tool in the place of a tet: below all tets.

@@ -101,7 +101,7 @@ std::array<Vec3, 3> far_corners(const Corners& corners, const Vec3& centre) {
   return {a, b, c};
 }
 
-// Distance between the projections of two tets on an axis.
+// Distance between the projections of two tets on an axis, times its length; negative if they overlap.
 double distance_along(const Vec3& axis, const TetShape& a, const TetShape& b) {
   double low_a = 1e300, high_a = -1e300, low_b = 1e300, high_b = -1e300;
   for (std::size_t i = 0; i < 4; ++i) {
@@ -134,6 +134,18 @@ std::array<double, 4> TetShape::coordinates(const Vec3& p) const {
   return lambda;
 }
 
+std::array<double, 4> coordinates_in(const TetCorners& nodes, const Vec3& p, std::span<const Vec4> x) {
+  const Vec3 origin = xyz(x[at(nodes[0])]);
+  const Vec3 a = xyz(x[at(nodes[1])]) - origin, b = xyz(x[at(nodes[2])]) - origin, c = xyz(x[at(nodes[3])]) - origin;
+  const Vec3 bc = b.cross(c), d = p - origin;
+  const double determinant = a.dot(bc);
+  const double inverse = 1.0 / determinant;
+  if (!(determinant > 0.0) || !std::isfinite(inverse)) return {0.25, 0.25, 0.25, 0.25};
+  const Vec3 da = d.cross(a);
+  const double first = inverse * d.dot(bc), second = -inverse * c.dot(da), third = inverse * b.dot(da);
+  return {1.0 - first - second - third, first, second, third};
+}
+
 TetShape make_tet_shape(const TetCorners& nodes, std::span<const Vec4> x) {
   TetShape shape;
   for (std::size_t i = 0; i < 4; ++i) shape.corners[i] = xyz(x[at(nodes[i])]);
@@ -143,10 +155,15 @@ TetShape make_tet_shape(const TetCorners& nodes, std::span<const Vec4> x) {
   const Vec3 bc = b.cross(c);
   const double determinant = a.dot(bc);
   shape.is_solid = determinant > 0.0 && std::isfinite(1.0 / determinant);
-  if (!shape.is_solid) return shape;
-  shape.gradient[1] = bc / determinant;
-  shape.gradient[2] = c.cross(a) / determinant;
-  shape.gradient[3] = a.cross(b) / determinant;
+  if (!shape.is_solid) {
+    shape.gradient.fill(Vec3::Zero());
+    shape.height.fill(0.0);
+    return shape;
+  }
+  const double inverse = 1.0 / determinant;
+  shape.gradient[1] = inverse * bc;
+  shape.gradient[2] = inverse * c.cross(a);
+  shape.gradient[3] = inverse * a.cross(b);
   shape.gradient[0] = -(shape.gradient[1] + shape.gradient[2] + shape.gradient[3]);
   for (std::size_t i = 0; i < 4; ++i) {
     const double norm = shape.gradient[i].norm();
@@ -164,8 +181,8 @@ double separation_by_edges(const TetShape& a, const TetShape& b) {
   for (const auto& [i, j] : edges)
     for (const auto& [k, l] : edges) {
       const Vec3 axis = (a.corners[j] - a.corners[i]).cross(b.corners[l] - b.corners[k]);
-      const double norm = axis.norm();
-      if (norm > 0.0) largest_gap = std::max(largest_gap, distance_along(axis / norm, a, b));
+      const double distance = distance_along(axis, a, b);
+      if (distance > 0.0) largest_gap = std::max(largest_gap, distance / axis.norm());
     }
   return largest_gap;
 }

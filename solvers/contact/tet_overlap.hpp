@@ -16,7 +16,7 @@ struct TetShape {
   std::array<Vec3, 4> corners;
   std::array<Vec3, 4> gradient;  ///< of its barycentric coordinates [1/m]
   std::array<double, 4> height;  ///< of each corner above its opposite face [m]
-  bool is_solid = false;         ///< of positive volume; others touch nothing
+  bool is_solid = false;         ///< of positive volume; others touch nothing, their gradients and heights are 0
 
   /// Barycentric coordinate i of a point.
   double coordinate(std::size_t i, const Vec3& p) const {
@@ -26,6 +26,9 @@ struct TetShape {
   std::array<double, 4> coordinates(const Vec3& p) const;
 };
 TetShape make_tet_shape(const TetCorners& nodes, std::span<const Vec4> x);
+
+/// Barycentric coordinates of a point in a tet, without its shape; they sum to 1. All equal in one without volume.
+std::array<double, 4> coordinates_in(const TetCorners& nodes, const Vec3& p, std::span<const Vec4> x);
 
 /// Lower bound of the distance between two tets [m], by the planes of their faces; 0 if none of these separates them.
 double separation_by_faces(const TetShape& a, const TetShape& b);

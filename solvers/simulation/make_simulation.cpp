@@ -20,7 +20,7 @@ namespace knap {
 namespace {
 
 // Candidate pairs are kept for fragments that move by this much of the mean edge towards each other.
-constexpr double skin_over_edge = 0.3;
+constexpr double skin_over_edge = 0.1;
 // Of the points on tools' edges over the mean edge: one at least in every face that an edge crosses.
 constexpr double spacing_over_edge = 0.4;
 

@@ -50,17 +50,18 @@ constexpr auto fields(const ContactCandidate*) {
 }
 constexpr auto fields(const Touch*) {
   return std::tuple{Field{"candidate", &Touch::candidate},
-                    Field{"fragments", &Touch::fragments},
                     Field{"size", &Touch::size},
                     Field{"area", &Touch::area},
                     Field{"patch_size", &Touch::patch_size},
                     Field{"weights", &Touch::weights},
+                    Field{"first_in_second", &Touch::first_in_second},
                     Field{"carries_body", &Touch::carries_body}};
 }
 // Its sides follow from the positions before they are used again; what is kept is what the next step starts from.
 constexpr auto fields(const Contact*) {
-  return std::tuple{Field{"tets", &Contact::tets}, Field{"point", &Contact::point}, Field{"place", &Contact::place},
-                    Field{"normal", &Contact::normal}, Field{"impulse", &Contact::impulse}};
+  return std::tuple{Field{"tets", &Contact::tets},       Field{"point", &Contact::point},
+                    Field{"place", &Contact::place},     Field{"normal", &Contact::normal},
+                    Field{"impulse", &Contact::impulse}, Field{"anchor", &Contact::anchor}};
 }
 constexpr auto fields(const RigidBody*) {
   return std::tuple{Field{"mass", &RigidBody::mass},
@@ -316,7 +317,8 @@ std::string case_hash(const Simulation& s) {
   hash.add(std::vector{r.enabled ? 1.0 : 0.0, r.whole ? 1.0 : 0.0, r.quiet_crossings,
                        static_cast<double>(r.quiet_steps), r.noticeable_damage, r.strain_share, r.vibration_share,
                        r.loss_share, r.approach_share, r.load_share, o.restitution});
-  hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_sweeps});
+  hash.add(std::vector{o.insertion_interval, o.label_interval, o.ledger_interval, o.impulse_sweeps, o.contact_interval,
+                       o.contact_sweeps});
   return hash.hex();
 }
 

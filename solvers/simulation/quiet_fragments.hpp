@@ -15,7 +15,8 @@ struct QuietFragment {
 };
 
 /// Whether a node of the body is nearer to a triangulated tool than this distance [m].
-bool is_near_triangulated_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body, double distance);
+bool is_near_triangulated_tool(const Simulation& s, std::span<const Index> nodes, const RigidBody& body,
+                               double distance);
 
 /// Notes which tets have had a facet cracked or noticeably damaged since the last call; at every look for fragments.
 void note_changes(Simulation& s);

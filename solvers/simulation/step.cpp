@@ -125,8 +125,13 @@ void detect_contacts(Simulation& s) {
   const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
   // The way of the last drift.
-  if (!rebuilt && advance_travel(s.contact, s.nodes.v, s.clock.dt)) rebuild_contact_candidates(s);
-  refresh_contacts(s.contact, scene(s));
+  const bool gone_far = !rebuilt && advance_travel(s.contact, s.nodes.v, s.clock.dt);
+  if (gone_far) rebuild_contact_candidates(s);
+  if (rebuilt || gone_far || s.clock.step % s.options.contact_interval == 0) {
+    refresh_contacts(s.contact, scene(s));
+  } else {
+    follow_contacts(s.contact, scene(s));
+  }
 }
 
 void apply_crack_impulses(Simulation& s) {
