@@ -17,9 +17,8 @@ namespace knap {
 namespace {
 
 constexpr Index buckets_per_block = 1024;
-// A fragment's margin lets it go on as it does for so many steps, but is at most so many times the least one: wider
-// boxes would meet too many others.
-constexpr double steps_ahead = 48.0;
+// A fragment's margin, which lets it go on as it does for a while, is at most so many times the least one: wider boxes
+// would meet too many others.
 constexpr double widest_margin = 8.0;
 
 using Box = Eigen::AlignedBox3f;  // rounded outwards
@@ -80,11 +79,17 @@ Vec3 mean_velocity(std::span<const Index> nodes, std::span<const Vec4> v) {
   return nodes.empty() ? sum : Vec3(sum / static_cast<double>(nodes.size()));
 }
 
-/// Largest speed of any surface node of the fragment in the contact's frame [m/s].
-double largest_speed(const ContactState& contact, Index fragment, std::span<const Vec4> v) {
+/// Bound of the speed of any surface node of the fragment in the contact's frame [m/s].
+double largest_speed(const ContactState& contact, Index fragment, const FragmentMotion& motion) {
+  const auto nodes = contact.surface_nodes[fragment];
+  if (nodes.empty()) return 0.0;
+  if (const Index body = motion.rigid.of_node(nodes.front()); body != none) {
+    const RigidBody& rigid = motion.rigid.bodies[at(body)];
+    return (rigid.velocity - contact.frame_velocity).norm() + spin(rigid).norm() * rigid.radius;
+  }
   double largest = 0.0;
-  for (const Index node : contact.surface_nodes[fragment])
-    largest = std::max(largest, (xyz(v[at(node)]) - contact.frame_velocity).squaredNorm());
+  for (const Index node : nodes)
+    largest = std::max(largest, (xyz(motion.v[at(node)]) - contact.frame_velocity).squaredNorm());
   return std::sqrt(largest);
 }
 
@@ -95,7 +100,7 @@ void set_margins(ContactState& contact, const ContactSurroundings& here) {
   parallel_for(
       contact.fragments,
       [&](Index f) {
-        const double ahead = steps_ahead * here.dt * largest_speed(contact, f, here.nodes.v);
+        const double ahead = here.time_ahead * largest_speed(contact, f, {here.nodes.v, here.rigid});
         contact.margin[at(f)] = std::min(contact.skin + ahead, widest_margin * contact.skin);
       },
       16);
@@ -290,9 +295,9 @@ void rebuild_candidates(ContactState& contact, const ContactSurroundings& here) 
   keep_touches(contact, old_candidates, old_free_faces);
 }
 
-bool advance_travel(ContactState& contact, std::span<const Vec4> v, double dt) {
+bool advance_travel(ContactState& contact, const FragmentMotion& motion, double dt) {
   parallel_for(
-      contact.fragments, [&](Index f) { contact.travel[at(f)] += dt * largest_speed(contact, f, v); }, 16);
+      contact.fragments, [&](Index f) { contact.travel[at(f)] += dt * largest_speed(contact, f, motion); }, 16);
   for (std::size_t f = 0; f < contact.travel.size(); ++f)
     if (contact.travel[f] > contact.margin[f]) return true;
   return false;

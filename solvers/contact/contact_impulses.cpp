@@ -10,6 +10,8 @@ namespace {
 
 // A contact has settled when a sweep changes its velocity by no more than this share of the largest change of the step.
 constexpr double settled = 1e-6;
+// ... or of the fastest body's speed: bodies that fly along in touch would else be settled to the last bit for ever.
+constexpr double still = 1e-9;
 constexpr Index rows_per_block = 256;
 
 Vec3 side_velocity(const ContactSide& side, const Vec3& place, const std::vector<Vec4>& v, const RigidBodies& rigid,
@@ -230,7 +232,7 @@ void sweep(ContactState& contact, std::vector<Row>& rows, const ContactParties& 
 void let_rebound(ContactState& contact, std::span<const Row> rows, const ContactParties& all,
                  const ContactOptions& options) {
   if (options.restitution == 0.0) return;
-  for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
+  for (int round = 0; round < options.rebounds; ++round) {
     bool any = false;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       Contact& c = contact.contacts[i];
@@ -260,6 +262,9 @@ void settle_bodies(ContactState& contact, std::span<const Row> rows, const Conta
     with_body.push_back(i);
     fastest = std::max(fastest, c.impulse.norm() / rows[i].normal_mass);
   }
+  double speed = 0.0;
+  for (const RigidBody& body : all.rigid.bodies) speed = std::max(speed, body.velocity.norm());
+  const double negligible = std::max(settled * fastest, still * speed);
   std::vector<std::uint8_t> moved(all.rigid.bodies.size(), 1), moves(moved.size());
   for (int sweep = 0; sweep < options.rigid_sweeps; ++sweep) {
     std::fill(moves.begin(), moves.end(), 0);
@@ -269,7 +274,7 @@ void settle_bodies(ContactState& contact, std::span<const Row> rows, const Conta
         return side.body != none && (moved[at(side.body)] != 0 || moves[at(side.body)] != 0);
       };
       if (!has_moved(c.sides[0]) && !has_moved(c.sides[1])) continue;
-      if (solve(c, rows[i], all) <= settled * fastest) continue;
+      if (solve(c, rows[i], all) <= negligible) continue;
       for (const ContactSide& side : c.sides)
         if (side.body != none) moves[at(side.body)] = 1;
     }
@@ -302,12 +307,12 @@ void apply_contact_impulses(ContactState& contact, const ContactParties& all, co
 }
 
 void book_contact_losses(ContactState& contact, const NodalState& nodes, const RigidBodies& rigid) {
-  for (const Contact& c : contact.contacts) {
+  contact.dissipated -= ordered_sum<double>(to_index(contact.contacts.size()), [&](Index i) {
+    const Contact& c = contact.contacts[at(i)];
     const Vec3 impulse = c.total_impulse();
-    if (impulse.isZero(0.0) || c.sides[0].tool != none) continue;
-    contact.dissipated -=
-        0.5 * impulse.dot(relative_velocity(c, nodes, rigid, {}) + relative_velocity_before(c, nodes, rigid));
-  }
+    if (impulse.isZero(0.0) || c.is_of_tool()) return 0.0;
+    return 0.5 * impulse.dot(relative_velocity(c, nodes, rigid, {}) + relative_velocity_before(c, nodes, rigid));
+  });
 }
 
 std::vector<ToolDeed> tool_deeds(const ContactState& contact, const RigidBodies& rigid, std::span<const Tool> tools) {

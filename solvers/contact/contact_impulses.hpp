@@ -18,9 +18,11 @@ struct ContactOptions {
   PairFriction pairs{};
   double restitution =
       0.0;  ///< between rigid bodies, and of them on tools: speed of parting over speed of approach (Newton) [-]
-  double slowest = 0.0;   ///< approach below this speed does not rebound [m/s]
-  int sweeps = 4;         ///< Gauss-Seidel sweeps over all contacts
-  int rigid_sweeps = 50;  ///< further ones over contacts with a rigid body, until they have settled
+  double slowest = 0.0;  ///< approach below this speed does not rebound [m/s]
+  int sweeps = 2;        ///< Gauss-Seidel sweeps over all contacts
+  int rigid_sweeps = 8;  ///< further ones over contacts with a rigid body, until they have settled; impulses are kept,
+                         ///< so what is left settles in the steps that follow
+  int rebounds = 50;     ///< rounds of impacts of rigid bodies in a step
 };
 
 /// Who can take part in a contact.

@@ -53,7 +53,7 @@ void update_bulk(Simulation& s) {
 
 void kick_nodes(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::Motion);
-  kick(s.nodes, s.clock.dt);
+  kick(s.nodes, s.clock.dt, s.rigid.body_of_node);
   if (!s.options.gravity.isZero(0.0)) s.totals.gravity += add_gravity(s.nodes, s.options.gravity, s.clock.dt);
   kick(s.rigid, s.options.gravity, s.clock.dt);
 }
@@ -101,9 +101,13 @@ void update_faces(Simulation& s) {
   update_crack_faces(s.cracks, s.topology, s.nodes, turn);
 }
 
+// While something breaks, the next look for fragments will bring new ones and with them the next rebuild.
 void rebuild_contact_candidates(Simulation& s) {
+  constexpr double looks_in_quiet = 4.0;
+  const bool is_quiet = s.clock.step - s.cracks.last_damage_step > s.options.label_interval;
+  const double time_ahead = (is_quiet ? looks_in_quiet : 1.0) * s.options.label_interval * s.clock.dt;
   const auto joints = fragment_joints(s.cracks, s.topology, s.contact.fragment_of_tet);
-  rebuild_candidates(s.contact, {s.topology, s.nodes, joints, s.clock.dt});
+  rebuild_candidates(s.contact, {s.topology, s.nodes, s.rigid, joints, time_ahead});
 }
 
 // Returns whether the candidates for contact have been found anew.
@@ -125,7 +129,7 @@ void detect_contacts(Simulation& s) {
   const bool rebuilt = looks_for_fragments(s) && look_for_new_fragments(s);
   if (s.contact.fragments < 2) return;
   // The way of the last drift.
-  const bool gone_far = !rebuilt && advance_travel(s.contact, s.nodes.v, s.clock.dt);
+  const bool gone_far = !rebuilt && advance_travel(s.contact, {s.nodes.v, s.rigid}, s.clock.dt);
   if (gone_far) rebuild_contact_candidates(s);
   if (rebuilt || gone_far || s.clock.step % s.options.contact_interval == 0) {
     refresh_contacts(s.contact, scene(s));

@@ -4,8 +4,17 @@
 
 namespace knap {
 
-void kick(NodalState& nodes, double dt) {
+namespace {
+
+bool is_free(Index node, std::span<const Index> body_of_node) {
+  return at(node) >= body_of_node.size() || body_of_node[at(node)] == none;
+}
+
+}  // namespace
+
+void kick(NodalState& nodes, double dt, std::span<const Index> body_of_node) {
   parallel_for(nodes.size(), [&](Index i) {
+    if (!is_free(i, body_of_node)) return;
     nodes.v_before[at(i)] = nodes.v[at(i)];
     nodes.v[at(i)] += dt / nodes.mass[at(i)] * nodes.f[at(i)];
   });
@@ -13,7 +22,7 @@ void kick(NodalState& nodes, double dt) {
 
 void drift(NodalState& nodes, double dt, std::span<const Index> body_of_node) {
   parallel_for(nodes.size(), [&](Index i) {
-    if (at(i) >= body_of_node.size() || body_of_node[at(i)] == none) nodes.x[at(i)] += dt * nodes.v[at(i)];
+    if (is_free(i, body_of_node)) nodes.x[at(i)] += dt * nodes.v[at(i)];
   });
 }
 

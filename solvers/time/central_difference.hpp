@@ -6,11 +6,11 @@
 
 namespace knap {
 
-/// Keeps the velocities as nodes.v_before and adds dt f/m to nodes.v: the free velocity, before any impulse.
-void kick(NodalState& nodes, double dt);
+/// Keeps the velocities as nodes.v_before and adds dt f/m to nodes.v: the free velocity, before any impulse. Not those
+/// of rigid bodies: body by node, none = of no body; so are nodes beyond the end.
+void kick(NodalState& nodes, double dt, std::span<const Index> body_of_node = {});
 
-/// Moves the nodes by dt v, but for those of rigid bodies (body by node, none = of no body; so are nodes beyond the
-/// end).
+/// Moves the nodes by dt v, but for those of rigid bodies.
 void drift(NodalState& nodes, double dt, std::span<const Index> body_of_node = {});
 
 /// Kinetic energy at the half step [J].

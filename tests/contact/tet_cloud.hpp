@@ -34,7 +34,7 @@ struct Cloud {
   ContactState contact;
   RigidBodies rigid;
 
-  void rebuild(double dt) { rebuild_candidates(contact, {topology, nodes, {}, dt}); }
+  void rebuild(double dt) { rebuild_candidates(contact, {topology, nodes, rigid, {}, 48.0 * dt}); }
   void refresh() { refresh_contacts(contact, {topology, nodes.x, rigid}); }
 };
 
