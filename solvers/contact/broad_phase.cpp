@@ -254,7 +254,7 @@ void sort_by_tets(std::vector<ContactCandidate>& candidates, Index num_tets) {
   candidates = std::move(sorted);
 }
 
-// Those stay whose tets are still candidates and have the free faces that they had; they are asked for their drift.
+// Those stay whose tets are still candidates and have the free faces that they had, to be looked at for their drift.
 void keep_touches(ContactState& contact, std::span<const ContactCandidate> old_candidates,
                   std::span<const std::uint8_t> old_free_faces) {
   std::size_t next = 0;
@@ -263,6 +263,7 @@ void keep_touches(ContactState& contact, std::span<const ContactCandidate> old_c
     while (next < contact.candidates.size() && contact.candidates[next].tets < tets) ++next;
     if (next == contact.candidates.size() || contact.candidates[next].tets != tets) return true;
     touch.candidate = to_index(next);
+    contact.candidates[next].due = 0.0;
     return std::any_of(tets.begin(), tets.end(),
                        [&](Index tet) { return old_free_faces[at(tet)] != contact.free_faces[at(tet)]; });
   });

@@ -46,6 +46,17 @@ vtkNew<vtkCellArray> wall_quads() {
   return quads;
 }
 
+// Maps a surface with normals that keep its edges sharp.
+vtkNew<vtkPolyDataMapper> shaded_mapper(vtkPolyData* data) {
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(data);
+  normals->SetFeatureAngle(35.0);
+  normals->ConsistencyOff();
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(normals->GetOutputPort());
+  return mapper;
+}
+
 }  // namespace
 
 vtkNew<vtkPoints> vtk_points(const std::vector<Vec3>& points) {
@@ -69,12 +80,7 @@ vtkNew<vtkUnsignedCharArray> vtk_colours(Index n, const std::function<Rgb(Index)
 }
 
 void add_lit_surface(vtkRenderer* view, vtkPolyData* data) {
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(data);
-  normals->SetFeatureAngle(35.0);
-  normals->ConsistencyOff();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(normals->GetOutputPort());
+  const vtkNew<vtkPolyDataMapper> mapper = shaded_mapper(data);
   mapper->SetResolveCoincidentTopologyToPolygonOffset();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);
@@ -125,12 +131,7 @@ void add_wall(vtkRenderer* view, const Vec3& centre, double radius) {
 }
 
 void add_ghost(vtkRenderer* view, vtkPolyData* data) {
-  vtkNew<vtkPolyDataNormals> normals;
-  normals->SetInputData(data);
-  normals->SetFeatureAngle(35.0);
-  normals->ConsistencyOff();
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(normals->GetOutputPort());
+  const vtkNew<vtkPolyDataMapper> mapper = shaded_mapper(data);
   mapper->ScalarVisibilityOff();
   vtkNew<vtkActor> actor;
   actor->SetMapper(mapper);

@@ -6,6 +6,7 @@
 
 #include "io/csv_table.hpp"
 #include "tests/app/program.hpp"
+#include "tests/support/pressed_case.hpp"
 
 namespace knap {
 namespace {
@@ -13,34 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// Too coarse and too fast to mean anything; breaks within a second or two.
-constexpr const char* compression_case = R"(
-[particle]
-diameter = "2 mm"
-[mesh]
-element_size = "0.35 mm"
-[material]
-preset = "zeolite_4ak"
-[fracture]
-allow_unresolved = true
-[impact]
-wall = true
-[[tool]]
-name = "upper"
-type = "platen"
-radius = "2 mm"
-normal = [0, 0, -1]
-motion = "velocity"
-velocity = [0, 0, "-8 m/s"]
-stop_at_force_drop = 0.5
-[output]
-frames = 2
-picture = false
-)";
-
 class CompressionRun : public ProgramTest {
  protected:
-  CompressionRun() { write("case.toml", compression_case); }
+  CompressionRun() { write("case.toml", coarse_pressed_case()); }
 };
 
 TEST_F(CompressionRun, EndsAtTheDropAndTellsTheStrength) {

@@ -6,6 +6,7 @@
 
 #include "io/csv_table.hpp"
 #include "tests/app/program.hpp"
+#include "tests/support/pressed_case.hpp"
 
 namespace knap {
 namespace {
@@ -13,36 +14,9 @@ namespace {
 namespace fs = std::filesystem;
 using testing::HasSubstr;
 
-// Too coarse and too fast to mean anything.
-constexpr const char* pressed_case = R"(
-[particle]
-diameter = "2 mm"
-[mesh]
-element_size = "0.35 mm"
-[material]
-preset = "zeolite_4ak"
-[fracture]
-allow_unresolved = true
-[impact]
-wall = true
-[quasistatic]
-enabled = true
-[[tool]]
-name = "upper"
-type = "platen"
-radius = "2 mm"
-normal = [0, 0, -1]
-motion = "velocity"
-velocity = [0, 0, "-8 m/s"]
-stop_at_force_drop = 0.5
-[output]
-frames = 2
-picture = false
-)";
-
 class QuasistaticRun : public ProgramTest {
  protected:
-  QuasistaticRun() { write("case.toml", pressed_case); }
+  QuasistaticRun() { write("case.toml", coarse_pressed_case(from_the_onset)); }
 };
 
 TEST_F(QuasistaticRun, TellsTheOnsetAndGoesOnFromIt) {
@@ -89,6 +63,8 @@ TEST_F(QuasistaticRun, TellsTheOnsetAndGoesOnFromIt) {
 }
 
 TEST_F(QuasistaticRun, ResumesToTheSameBits) {
+  // Small steps, so that the run lasts long enough to be stopped on a busy machine.
+  write("case.toml", coarse_pressed_case(from_the_onset) + "[run]\nstep_safety = 0.1\n");
   const std::vector<std::string> whole{"run", "case.toml", "--out", "whole", "--quiet", "--threads", "1"};
   ASSERT_EQ(run(whole).code, 0);
   const Started first =

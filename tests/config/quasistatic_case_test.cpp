@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include "tests/config/case_text.hpp"
+#include "tests/support/pressed_case.hpp"
 
 namespace knap {
 namespace {
@@ -9,23 +10,7 @@ namespace {
 using testing::HasSubstr;
 using namespace testing_cases;
 
-// A plate at rest and a platen that comes down.
-const std::string pressed = R"([particle]
-diameter = "2 mm"
-[material]
-preset = "zeolite_4ak"
-[impact]
-wall = true
-[quasistatic]
-enabled = true
-[[tool]]
-name = "upper"
-type = "platen"
-radius = "2 mm"
-normal = [0, 0, -1]
-motion = "velocity"
-velocity = [0, 0, -1]
-)";
+const std::string pressed = pressed_case(from_the_onset);
 
 TEST(QuasistaticCase, IsTakenWithTwoFlatToolsThatComeNearer) {
   const RunConfig config = config_of(pressed);

@@ -2,52 +2,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <numeric>
 
 #include "core/errors.hpp"
 #include "core/parallel.hpp"
 #include "core/vector_targets.hpp"
 #include "fem/tet_reference.hpp"
-#include "tests/fem/grid_mesh.hpp"
+#include "tests/fem/elastic_body.hpp"
 #include "tests/fem/plain_elastic.hpp"
 
 namespace knap {
 namespace {
-
-const Material elastic_material = make_material(1.0, 0.25, 1.0);
-const Material viscous_material = make_material(1.0, 0.25, 1.0, {0.4, 2.0});
-
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-std::vector<Vec4> moved(const TetMesh& mesh, double amplitude, unsigned seed = 7) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> shift(-amplitude, amplitude);
-  std::vector<Vec4> x;
-  for (const Vec3& v : mesh.vertices) x.push_back(padded(v + Vec3(shift(random), shift(random), shift(random))));
-  return x;
-}
-
-struct Body {
-  TetMesh mesh;
-  Topology topology;
-  ElasticForce elastic;
-  std::vector<Vec4> forces(std::span<const Vec4> x, double dt = 0.0) {
-    std::vector<Vec4> f(x.size(), Vec4::Constant(1e99));
-    update_elastic_forces(elastic, x, f, dt);
-    return f;
-  }
-};
-
-Body make_body(Index n, const Material& material, double jitter = 0.15) {
-  Body body{grid_mesh(n, 1.0, jitter), {}, {}};
-  body.topology = make_topology(body.mesh);
-  body.elastic = make_elastic_force(body.topology, body.mesh.vertices, material);
-  return body;
-}
 
 // Gives a new node to the corners of every fifth vertex that lie in tets of odd number.
 std::vector<Index> split_some(Topology& topology, std::vector<Vec4>& x, Index every) {
@@ -69,7 +34,7 @@ std::vector<Index> split_some(Topology& topology, std::vector<Vec4>& x, Index ev
 }
 
 TEST(ElasticForce, AgreesWithThePlainLoop) {
-  Body body = make_body(7, elastic_material);  // 2058 tets: several blocks, the last one padded
+  ElasticBody body = elastic_body(7, elastic_material);  // 2058 tets: several blocks, the last one padded
   ASSERT_GT(body.elastic.blocks.blocks.size(), 3u);
   const auto x = moved(body.mesh, 0.03);
   const auto expected = plain_forces(body.topology, body.mesh.vertices, elastic_material, x);
@@ -80,7 +45,7 @@ TEST(ElasticForce, AgreesWithThePlainLoop) {
 }
 
 TEST(ElasticForce, ForcesAreTheGradientOfTheEnergy) {
-  Body body = make_body(2, elastic_material);
+  ElasticBody body = elastic_body(2, elastic_material);
   auto x = moved(body.mesh, 0.05);
   const auto f = body.forces(x);
   const double h = 1e-6;
@@ -97,7 +62,7 @@ TEST(ElasticForce, ForcesAreTheGradientOfTheEnergy) {
 }
 
 TEST(ElasticForce, PatchTest) {
-  Body body = make_body(6, elastic_material);
+  ElasticBody body = elastic_body(6, elastic_material);
   const Mat3 F = Mat3::Identity() + 0.05 * Mat3{{1.0, 0.3, -0.2}, {0.5, -0.7, 0.1}, {0.2, 0.4, 0.6}};
   std::vector<Vec4> x;
   for (const Vec3& v : body.mesh.vertices) x.push_back(padded(F * v));
@@ -126,7 +91,7 @@ TEST(ElasticForce, PatchTest) {
 
 TEST(ElasticForce, RotationsAndTranslationsAreFree) {
   for (const Material& material : {elastic_material, viscous_material}) {
-    Body body = make_body(5, material);
+    ElasticBody body = elastic_body(5, material);
     const Mat3 R = Eigen::AngleAxisd(2.3, Vec3(1, 2, 3).normalized()).toRotationMatrix();
     std::vector<Vec4> x;
     for (const Vec3& v : body.mesh.vertices) x.push_back(padded(R * v + Vec3(1, -2, 0.5)));
@@ -139,7 +104,7 @@ TEST(ElasticForce, RotationsAndTranslationsAreFree) {
 
 TEST(ElasticForce, MomentumAndAngularMomentumAreKept) {
   for (const Material& material : {elastic_material, viscous_material}) {
-    Body body = make_body(5, material);
+    ElasticBody body = elastic_body(5, material);
     const auto x = moved(body.mesh, 0.03);
     const auto f = body.forces(x, 0.1);
     Vec3 force = Vec3::Zero(), torque = Vec3::Zero();
@@ -176,7 +141,7 @@ TEST(ElasticForce, TetWithoutVolumeIsRefused) {
 }
 
 TEST(ElasticForce, UnusedVerticesGetNoForce) {
-  Body body{grid_mesh(2, 1.0, 0.1), {}, {}};
+  ElasticBody body{grid_mesh(2, 1.0, 0.1), {}, {}};
   body.mesh.vertices.push_back({5, 5, 5});
   body.topology = make_topology(body.mesh);
   body.elastic = make_elastic_force(body.topology, body.mesh.vertices, elastic_material);
@@ -194,7 +159,7 @@ struct Sweeps {
   }
 };
 
-Sweeps run_sweeps(Body body, const std::vector<Vec4>& x) {
+Sweeps run_sweeps(ElasticBody body, const std::vector<Vec4>& x) {
   Sweeps s;
   s.f = body.forces(x, 0.3);
   s.f = body.forces(x, 0.3);
@@ -207,7 +172,7 @@ Sweeps run_sweeps(Body body, const std::vector<Vec4>& x) {
 
 TEST(ElasticForce, SameBitsForAnyNumberOfThreads) {
   for (const Material& material : {elastic_material, viscous_material}) {
-    const Body body = make_body(12, material);
+    const ElasticBody body = elastic_body(12, material);
     const auto x = moved(body.mesh, 0.02);
     set_num_threads(1);
     const Sweeps expected = run_sweeps(body, x);
@@ -222,7 +187,7 @@ TEST(ElasticForce, SameBitsOnAvx2AndAvx512) {
   const auto targets = vector_targets();
   if (std::find(targets.begin(), targets.end(), "AVX3") == targets.end()) GTEST_SKIP() << "no AVX-512 here";
   for (const Material& material : {elastic_material, viscous_material}) {
-    const Body body = make_body(9, material);
+    const ElasticBody body = elastic_body(9, material);
     const auto x = moved(body.mesh, 0.02);
     use_vector_target("AVX3");
     const Sweeps wide = run_sweeps(body, x);
@@ -236,7 +201,7 @@ TEST(ElasticForce, SameBitsOnAvx2AndAvx512) {
 TEST(ElasticForce, EveryInstructionSetAgreesWithThePlainLoop) {
   for (const std::string& target : vector_targets()) {
     use_vector_target(target);
-    Body body = make_body(5, elastic_material);
+    ElasticBody body = elastic_body(5, elastic_material);
     const auto x = moved(body.mesh, 0.03);
     const auto expected = plain_forces(body.topology, body.mesh.vertices, elastic_material, x);
     const auto f = body.forces(x);
@@ -251,12 +216,12 @@ TEST(ElasticForce, EveryInstructionSetAgreesWithThePlainLoop) {
 }
 
 TEST(ElasticForce, RefreshAfterSplitsEqualsBuildingFromScratch) {
-  Body body = make_body(9, elastic_material);
+  ElasticBody body = elastic_body(9, elastic_material);
   auto x = moved(body.mesh, 0.02);
   for (const Index every : {97, 31, 5, 2, 1}) {
     const auto changed = split_some(body.topology, x, every);
     refresh_elastic_force(body.elastic, body.topology, changed);
-    Body fresh = body;
+    ElasticBody fresh = body;
     fresh.elastic = make_elastic_force(body.topology, body.mesh.vertices, elastic_material);
     EXPECT_TRUE(same_bits(body.forces(x), fresh.forces(x))) << every;
     EXPECT_EQ(strain_energy(body.elastic, x), strain_energy(fresh.elastic, x));
@@ -288,7 +253,7 @@ TEST(ElasticForce, SeparateTetsFillTheLargestBlock) {
 }
 
 TEST(ElasticForce, BranchAgreesWithThePointLaw) {
-  Body body = make_body(4, viscous_material);
+  ElasticBody body = elastic_body(4, viscous_material);
   std::vector<ViscoelasticHistory> history(at(body.topology.num_tets()));
   double dissipated = 0.0, pending = 0.0;
   for (unsigned n = 0; n < 5; ++n) {
@@ -310,7 +275,7 @@ TEST(ElasticForce, BranchAgreesWithThePointLaw) {
 }
 
 TEST(ElasticForce, HeldBodyRelaxesToTheLongTermForces) {
-  Body viscous = make_body(3, viscous_material), elastic = make_body(3, elastic_material);
+  ElasticBody viscous = elastic_body(3, viscous_material), elastic = elastic_body(3, elastic_material);
   const auto x = moved(viscous.mesh, 0.03);
   const auto long_term = elastic.forces(x), start = viscous.forces(x, 0.0);
   const double dt = 0.05;
@@ -324,7 +289,7 @@ TEST(ElasticForce, HeldBodyRelaxesToTheLongTermForces) {
 
 // A ringing cube under leapfrog: kinetic + stored + dissipated stays what it was.
 TEST(ElasticForce, LeapfrogWithBranchClosesTheEnergyBalance) {
-  Body body = make_body(3, viscous_material);
+  ElasticBody body = elastic_body(3, viscous_material);
   const double dt = 0.01, mass = 1.0 / static_cast<double>(body.mesh.vertices.size());
   std::vector<Vec4> x;
   for (const Vec3& v : body.mesh.vertices) x.push_back(padded(Vec3(1.05, 1.0, 0.97).cwiseProduct(v)));

@@ -2,52 +2,14 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <numeric>
 
 #include "core/parallel.hpp"
-#include "tests/fem/grid_mesh.hpp"
+#include "tests/fem/elastic_body.hpp"
 #include "tests/fem/plain_elastic.hpp"
 
 namespace knap {
 namespace {
-
-const Material elastic_material = make_material(1.0, 0.25, 1.0);
-const Material viscous_material = make_material(1.0, 0.25, 1.0, {0.4, 2.0});
-
-template <class T>
-bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
-  return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
-
-std::vector<Vec4> moved(const TetMesh& mesh, unsigned seed = 7) {
-  std::mt19937 random(seed);
-  std::uniform_real_distribution<double> shift(-0.02, 0.02);
-  std::vector<Vec4> x;
-  for (const Vec3& v : mesh.vertices) x.push_back(padded(v + Vec3(shift(random), shift(random), shift(random))));
-  return x;
-}
-
-struct Body {
-  TetMesh mesh;
-  Topology topology;
-  ElasticForce elastic;
-
-  std::vector<Vec4> forces(std::span<const Vec4> x, double dt = 0.0) {
-    std::vector<Vec4> f(x.size(), Vec4::Constant(1e99));
-    update_elastic_forces(elastic, x, f, dt);
-    return f;
-  }
-  void activate(std::span<const Index> active) { set_active_tets(elastic, topology, mesh.vertices, active); }
-};
-
-Body make_body(Index n, std::span<const Material> materials, std::span<const Index> material_of_tet = {}) {
-  Body body{grid_mesh(n, 1.0, 0.15), {}, {}};
-  body.topology = make_topology(body.mesh);
-  body.elastic = make_elastic_force(body.topology, body.mesh.vertices, materials, material_of_tet);
-  return body;
-}
-Body make_body(Index n, const Material& material) { return make_body(n, std::span(&material, 1)); }
 
 std::vector<Index> all_tets(const Topology& topology) {
   std::vector<Index> all(topology.tet_nodes.size());
@@ -80,8 +42,8 @@ void expect_near(const std::vector<Vec4>& f, const std::vector<Vec4>& expected) 
 }
 
 TEST(SleepingTets, HaveNoForceEnergyOrStress) {
-  Body body = make_body(7, elastic_material);
-  const auto x = moved(body.mesh);
+  ElasticBody body = elastic_body(7, elastic_material);
+  const auto x = moved(body.mesh, 0.02);
   for (const double share : {0.5, 0.05, 0.0, 0.9, 1.0}) {
     const auto active = some_tets(body.topology, share, 3);
     body.activate(active);
@@ -106,8 +68,8 @@ TEST(SleepingTets, HaveNoForceEnergyOrStress) {
 
 TEST(SleepingTets, OnlyWhichSleepCountsNotHowThatCameAbout) {
   for (const Material& material : {elastic_material, viscous_material}) {
-    Body direct = make_body(9, material), stepwise = direct;
-    const auto x = moved(direct.mesh);
+    ElasticBody direct = elastic_body(9, material), stepwise = direct;
+    const auto x = moved(direct.mesh, 0.02);
     const auto active = some_tets(direct.topology, 0.4, 5);
     direct.activate(active);
     for (const unsigned seed : {1u, 2u, 3u}) stepwise.activate(some_tets(direct.topology, 0.3 * seed, seed));
@@ -121,8 +83,8 @@ TEST(SleepingTets, WokenGiveTheBitsOfThoseThatNeverSlept) {
   for (const Material& material : {elastic_material, viscous_material})
     for (const int threads : {1, 3}) {
       set_num_threads(threads);
-      Body slept = make_body(9, material), never = slept;
-      const auto x = moved(slept.mesh), later = moved(slept.mesh, 8);
+      ElasticBody slept = elastic_body(9, material), never = slept;
+      const auto x = moved(slept.mesh, 0.02), later = moved(slept.mesh, 0.02, 8);
       EXPECT_TRUE(same_bits(slept.forces(x, 0.3), never.forces(x, 0.3)));
       slept.activate(some_tets(slept.topology, 0.2, 4));
       slept.activate(all_tets(slept.topology));
@@ -135,8 +97,8 @@ TEST(SleepingTets, WokenGiveTheBitsOfThoseThatNeverSlept) {
 
 // Splits while some tets sleep, also of tets that do: forces, and the blocks, as if made from scratch.
 TEST(SleepingTets, FollowSplits) {
-  Body body = make_body(9, elastic_material);
-  auto x = moved(body.mesh);
+  ElasticBody body = elastic_body(9, elastic_material);
+  auto x = moved(body.mesh, 0.02);
   const auto active = some_tets(body.topology, 0.5, 6);
   body.activate(active);
   std::vector<Index> changed;
@@ -151,7 +113,7 @@ TEST(SleepingTets, FollowSplits) {
   for (const auto& now : {active, some_tets(body.topology, 0.7, 7)}) {
     body.activate(now);
     expect_near(body.forces(x), plain_forces(part(body.topology, now), body.mesh.vertices, elastic_material, x));
-    Body fresh = body;
+    ElasticBody fresh = body;
     fresh.elastic = make_elastic_force(body.topology, body.mesh.vertices, elastic_material);
     fresh.activate(now);
     EXPECT_TRUE(same_bits(body.forces(x), fresh.forces(x)));
@@ -162,7 +124,7 @@ TEST(SleepingTets, FollowSplits) {
 struct PlainBranch {
   std::vector<ViscoelasticHistory> history;
 
-  PlainBranchForces forces(const Body& body, std::span<const Index> active, std::span<const Vec4> x, double dt) {
+  PlainBranchForces forces(const ElasticBody& body, std::span<const Index> active, std::span<const Vec4> x, double dt) {
     std::vector<ViscoelasticHistory> own;
     for (const Index t : active) own.push_back(history[at(t)]);
     auto result = plain_branch_forces(part(body.topology, active), body.mesh.vertices, viscous_material, x, dt, own);
@@ -172,12 +134,12 @@ struct PlainBranch {
 };
 
 TEST(SleepingTets, RememberWhatTheirBranchHasRelaxedTo) {
-  Body body = make_body(5, viscous_material);
+  ElasticBody body = elastic_body(5, viscous_material);
   PlainBranch plain{std::vector<ViscoelasticHistory>(body.topology.tet_nodes.size())};
   for (unsigned n = 0; n < 8; ++n) {
     const auto active = some_tets(body.topology, n % 4 == 0 ? 1.0 : 0.4, n);
     body.activate(active);
-    const auto x = moved(body.mesh, 20 + n);
+    const auto x = moved(body.mesh, 0.02, 20 + n);
     const PlainBranchForces expected = plain.forces(body, active, x, 0.3);
     expect_near(body.forces(x, 0.3), expected.f);
     EXPECT_NEAR(body.elastic.branch.stored, expected.stored, 1e-12 * expected.stored);
@@ -185,16 +147,16 @@ TEST(SleepingTets, RememberWhatTheirBranchHasRelaxedTo) {
 }
 
 TEST(SleepingTets, MetricsGoOverToAnotherBody) {
-  Body body = make_body(5, viscous_material), restored = body;
-  body.forces(moved(body.mesh, 1), 0.3);
+  ElasticBody body = elastic_body(5, viscous_material), restored = body;
+  body.forces(moved(body.mesh, 0.02, 1), 0.3);
   const auto active = some_tets(body.topology, 0.4, 2);
   body.activate(active);
-  body.forces(moved(body.mesh, 2), 0.3);
+  body.forces(moved(body.mesh, 0.02, 2), 0.3);
   restored.activate(active);
   set_relaxed_metrics(restored.elastic, relaxed_metrics(body.elastic));
   EXPECT_TRUE(same_bits(relaxed_metrics(restored.elastic), relaxed_metrics(body.elastic)));
-  for (Body* b : {&body, &restored}) b->activate(all_tets(body.topology));
-  EXPECT_TRUE(same_bits(body.forces(moved(body.mesh, 3), 0.3), restored.forces(moved(body.mesh, 3), 0.3)));
+  for (ElasticBody* b : {&body, &restored}) b->activate(all_tets(body.topology));
+  EXPECT_TRUE(same_bits(body.forces(moved(body.mesh, 0.02, 3), 0.3), restored.forces(moved(body.mesh, 0.02, 3), 0.3)));
 }
 
 // Materials in runs, as of several particles, and mixed, as of grains.
@@ -207,8 +169,8 @@ TEST(SeveralMaterials, EachTetHasItsOwn) {
     mixed.push_back((t / 5) % 3);
   }
   for (const auto& material_of_tet : {in_runs, mixed}) {
-    Body body = make_body(7, materials, material_of_tet);
-    const auto x = moved(body.mesh);
+    ElasticBody body = elastic_body(7, materials, material_of_tet);
+    const auto x = moved(body.mesh, 0.02);
     for (const double share : {1.0, 0.4}) {
       const auto active = some_tets(topology, share, 1);
       body.activate(active);
@@ -242,11 +204,11 @@ TEST(SeveralMaterials, OneMayHaveABranchAndAnotherNone) {
     material_of_tet.push_back((t / 100) % 2);
     (material_of_tet.back() ? viscous_tets : elastic_tets).push_back(t);
   }
-  Body body = make_body(6, materials, material_of_tet);
+  ElasticBody body = elastic_body(6, materials, material_of_tet);
   PlainBranch plain{std::vector<ViscoelasticHistory>(topology.tet_nodes.size())};
   double dissipated = 0.0, pending = 0.0;
   for (const unsigned n : {1u, 2u, 3u}) {
-    const auto x = moved(body.mesh, n);
+    const auto x = moved(body.mesh, 0.02, n);
     const PlainBranchForces viscous = plain.forces(body, viscous_tets, x, 0.3);
     auto expected = plain_forces(part(topology, elastic_tets), body.mesh.vertices, elastic_material, x);
     for (std::size_t i = 0; i < expected.size(); ++i) expected[i] += viscous.f[i];

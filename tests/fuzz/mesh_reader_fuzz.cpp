@@ -1,17 +1,9 @@
 // Mutates small .msh files of the four formats; every outcome must be a mesh or an InputError.
 // usage: mesh_reader_fuzz [seconds]
-#include <fmt/format.h>
-
-#include <chrono>
-#include <cstdlib>
-#include <string>
-#include <vector>
-
-#include "core/errors.hpp"
-#include "core/random.hpp"
 #include "meshing/mesh_quality.hpp"
 #include "meshing/read_msh.hpp"
 #include "meshing/reorder.hpp"
+#include "tests/fuzz/mutation.hpp"
 
 namespace knap {
 namespace {
@@ -98,8 +90,6 @@ std::string msh4(bool binary) {
   return out.bytes + "\n$EndElements\n";
 }
 
-std::size_t pick(std::uint64_t& random, std::size_t n) { return static_cast<std::size_t>(splitmix64(random) % n); }
-
 const std::vector<std::string> spiteful_words{
     "-1",  "0",      "2147483648", "9223372036854775807", "18446744073709551616", "1e999", "nan",
     "-",   "$Nodes", "$EndNodes",  "$Elements",           "$EndElements",         "",      "\n",
@@ -113,78 +103,41 @@ const std::vector<std::uint64_t> spiteful_numbers{0,          1,
                                                   1ULL << 63, 0x7ff0ULL << 48};
 
 void mutate(std::string& file, const std::vector<std::string>& seeds, std::uint64_t& random) {
-  if (file.empty()) return;
   const std::size_t place = pick(random, file.size());
-  const std::size_t length = std::min(file.size() - place, 1 + pick(random, splitmix64(random) % 4 == 0 ? 200 : 8));
   switch (pick(random, 8)) {
-    case 0:
-      file[place] = static_cast<char>(splitmix64(random));
-      break;
-    case 1:
-      file[place] = static_cast<char>(file[place] ^ (1 << pick(random, 8)));
-      break;
-    case 2:
-      file.erase(place, length);
-      break;
-    case 3:
-      file.insert(place, file.substr(pick(random, file.size()), length));
-      break;
-    case 4:
-      file.resize(place);
-      break;
-    case 5: {
+    case 0: {
       const std::uint64_t number = spiteful_numbers[pick(random, spiteful_numbers.size())];
       const std::size_t size = std::min<std::size_t>(file.size() - place, pick(random, 2) == 0 ? 4 : 8);
       file.replace(place, size, reinterpret_cast<const char*>(&number), size);
-      break;
+      return;
     }
-    case 6: {  // a word of an ASCII file
-      const std::size_t begin = file.find_first_of(" \n", place);
-      if (begin == std::string::npos) break;
-      const std::size_t end = std::min(file.find_first_of(" \n", begin + 1), file.size());
-      file.replace(begin + 1, end - begin - 1, spiteful_words[pick(random, spiteful_words.size())]);
-      break;
-    }
-    default: {
+    case 1:
+      return replace_word(file, place, spiteful_words[pick(random, spiteful_words.size())]);
+    case 2: {
       const std::string& other = seeds[pick(random, seeds.size())];
       file = file.substr(0, place) + other.substr(pick(random, other.size()));
+      return;
     }
+    default:
+      return change_bytes(file, place, random);
   }
 }
 
-bool survives(const std::string& file) {
-  try {
-    const TetMesh mesh = parse_msh(file, "fuzz.msh", 1e-3);
-    check_mesh(mesh);
-    const MeshQuality quality = measure_quality(morton_ordered(mesh));
-    return quality.num_tets == mesh.num_tets();
-  } catch (const InputError&) {
-    return true;
-  } catch (const std::exception& error) {
-    fmt::print(stderr, "not an InputError: {}\n", error.what());
-    return false;
-  }
+bool is_sound(const std::string& file) {
+  const TetMesh mesh = parse_msh(file, "fuzz.msh", 1e-3);
+  check_mesh(mesh);
+  return measure_quality(morton_ordered(mesh)).num_tets == mesh.num_tets();
 }
 
 int run(double seconds) {
   const std::vector<std::string> seeds{msh2(false), msh2(true), msh4(false), msh4(true)};
   for (const std::string& seed : seeds)
     if (parse_msh(seed, "seed.msh", 1e-3).num_tets() != 5) return EXIT_FAILURE;
-  std::uint64_t random = 20240601;
-  using Clock = std::chrono::steady_clock;
-  const auto end = Clock::now() + std::chrono::duration<double>(seconds);
-  long runs = 0;
-  while (Clock::now() < end) {
-    std::string file = seeds[pick(random, seeds.size())];
-    for (std::size_t n = 1 + pick(random, 4); n > 0; --n) mutate(file, seeds, random);
-    if (!survives(file)) {
-      fmt::print(stderr, "run {} failed, {} bytes:\n{}\n", runs, file.size(), file);
-      return EXIT_FAILURE;
-    }
-    ++runs;
-  }
+  const long runs = fuzz(
+      seconds, seeds, [&](std::string& file, std::uint64_t& random) { mutate(file, seeds, random); },
+      [](const std::string& file) { return survives([&] { return is_sound(file); }); });
   fmt::print("{} files\n", runs);
-  return EXIT_SUCCESS;
+  return runs < 0 ? EXIT_FAILURE : EXIT_SUCCESS;
 }
 
 }  // namespace
