@@ -37,6 +37,28 @@ std::vector<Index> bonded_groups(const Topology& topology, std::span<const Index
   return parent;
 }
 
+/// What scaling has added to a node beside the masses of its corners [kg].
+struct AddedMass {
+  Index node = none;
+  double mass = 0.0;
+};
+std::vector<AddedMass> added_masses(const Topology& topology, const NodalState& nodes, std::span<const Index> star,
+                                    std::span<const double> corner_mass) {
+  constexpr double round_off = 1e-12;
+  std::vector<AddedMass> added;
+  for (const Index corner : star) {
+    const Index node = topology.node_of_corner(corner);
+    const auto is_node = [node](const AddedMass& a) { return a.node == node; };
+    if (std::any_of(added.begin(), added.end(), is_node)) continue;
+    double own = 0.0;
+    for (const Index other : star)
+      if (topology.node_of_corner(other) == node) own += corner_mass[at(other >> 2)];
+    const double mass = nodes.mass[at(node)] - own;
+    added.push_back({node, mass > round_off * own ? mass : 0.0});
+  }
+  return added;
+}
+
 void sum_masses(const Topology& topology, NodalState& nodes, std::span<const Index> star,
                 std::span<const double> corner_mass) {
   for (const Index corner : star) nodes.mass[at(topology.node_of_corner(corner))] = 0.0;
@@ -103,6 +125,7 @@ std::vector<Index> split_vertex(Topology& topology, NodalState& nodes, Index ver
                                 std::span<const double> corner_mass) {
   const auto star = topology.corners_of_vertex[vertex];
   const auto group = bonded_groups(topology, star);
+  const auto added = added_masses(topology, nodes, star, corner_mass);
   std::vector<std::pair<Index, Index>> owner;  // old node, the group that keeps it
   std::vector<Index> new_node(star.size(), none);
   std::vector<Index> changed;
@@ -125,7 +148,9 @@ std::vector<Index> split_vertex(Topology& topology, NodalState& nodes, Index ver
     node = new_node[at(g)];
     changed.push_back(corner >> 2);
   }
-  if (!changed.empty()) sum_masses(topology, nodes, star, corner_mass);
+  if (changed.empty()) return changed;
+  sum_masses(topology, nodes, star, corner_mass);
+  for (const AddedMass& a : added) nodes.mass[at(a.node)] += a.mass;
   return changed;
 }
 

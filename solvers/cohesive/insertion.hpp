@@ -29,7 +29,8 @@ InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState
                               std::span<const OverloadedFacet> facets, const InsertionOptions& options);
 
 /// Gives every group of the vertex star's corners that bonded facets join a node of its own; returns the tets whose
-/// nodes changed. The first group of a node keeps it, the others get copies; masses are summed from the corners.
+/// nodes changed. The first group of a node keeps it and what scaling has added to its mass, the others
+/// get copies; masses are summed from the corners.
 std::vector<Index> split_vertex(Topology& topology, NodalState& nodes, Index vertex,
                                 std::span<const double> corner_mass);
 

@@ -19,15 +19,16 @@ struct ContactCandidate {
 /// each other.
 struct Touch {
   Index candidate = none;
-  double size = 0.0;                                       ///< of the smaller tet: its least height [m]
-  Vec3 area = Vec3::Zero();                                ///< of the patch, from the first to the second tet [m2]
-  double patch_size = 0.0;                                 ///< its area without direction [m2]
-  std::array<double, 4> weights{};                         ///< barycentric coordinates of its centre in the first tet
+  double size = 0.0;                         ///< of the smaller tet: its least height [m]
+  double patch_size = 0.0;                   ///< its area without direction [m2]
+  std::array<double, 3> area_along_edges{};  ///< of the patch, by the edges from the first tet's first corner [m]
+  std::array<double, 4> weights{};           ///< barycentric coordinates of its centre in the first tet
   std::array<std::array<double, 4>, 4> first_in_second{};  ///< likewise of the first tet's corners in the second
   std::array<Vec3, 3> corners{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};  ///< of the patch, for rigid bodies [m]
-  Vec3 centre = Vec3::Zero();                                             ///< now [m]
-  Vec3 normal = Vec3::Zero();                                             ///< now: unit, from the first to the second
-  std::uint8_t carries_body = 0;                                          ///< one of the tets belongs to a rigid body
+  Vec3 area = Vec3::Zero();       ///< now: of the patch, from the first to the second tet [m2]
+  Vec3 centre = Vec3::Zero();     ///< now [m]
+  Vec3 normal = Vec3::Zero();     ///< now: unit, from the first to the second
+  std::uint8_t carries_body = 0;  ///< one of the tets belongs to a rigid body
 };
 
 /// One body's part of a contact: a rigid body, a tool, or the four nodes of a tet with the barycentric weights of the

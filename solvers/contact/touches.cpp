@@ -40,7 +40,7 @@ bool narrow(const ContactState& contact, ContactCandidate& candidate, double tra
         overlap_patch(a, contact.free_faces[at(first)], b, contact.free_faces[at(second)], touch.carries_body != 0);
     touch.size = std::min(least_height(a), least_height(b));
     if (patch.size > smallest_patch * touch.size * touch.size) {
-      touch.area = patch.area;
+      for (std::size_t k = 0; k < 3; ++k) touch.area_along_edges[k] = a.gradient[k + 1].dot(patch.area);
       touch.patch_size = patch.size;
       touch.corners = patch.corners;
       touch.weights = a.coordinates(patch.centre);
@@ -149,11 +149,15 @@ void find_touches(ContactState& contact, const ContactScene& scene) {
   contact.touches = std::move(all);
 }
 
+// A kept patch moves and turns with its first tet.
 void place_touches(ContactState& contact, const ContactScene& scene) {
   parallel_for(to_index(contact.touches.size()), [&](Index i) {
     Touch& touch = contact.touches[at(i)];
-    touch.centre =
-        place_in(scene.topology.tet_nodes[at(contact.candidates[at(touch.candidate)].tets[0])], touch.weights, scene.x);
+    const TetCorners& first = scene.topology.tet_nodes[at(contact.candidates[at(touch.candidate)].tets[0])];
+    touch.centre = place_in(first, touch.weights, scene.x);
+    touch.area = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      touch.area += touch.area_along_edges[k] * (xyz(scene.x[at(first[k + 1])]) - xyz(scene.x[at(first[0])]));
   });
 }
 

@@ -51,7 +51,7 @@ constexpr auto fields(const ContactCandidate*) {
 constexpr auto fields(const Touch*) {
   return std::tuple{Field{"candidate", &Touch::candidate},
                     Field{"size", &Touch::size},
-                    Field{"area", &Touch::area},
+                    Field{"area_along_edges", &Touch::area_along_edges},
                     Field{"patch_size", &Touch::patch_size},
                     Field{"weights", &Touch::weights},
                     Field{"first_in_second", &Touch::first_in_second},

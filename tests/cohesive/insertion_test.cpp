@@ -108,6 +108,18 @@ TEST(NodeSplit, KeepsMassMomentumAndEnergy) {
   EXPECT_EQ(to_index(used.size()), s.nodes.size());
 }
 
+// Mass that scaling has added and booked is not lost when its node splits (again).
+TEST(NodeSplit, KeepsMassThatWasAdded) {
+  Simulation s = block({4, 2, 2});
+  const double before = momentum(s.nodes).mass;
+  const double added = 0.5 * s.nodes.mass[0];
+  for (double& mass : s.nodes.mass) mass += added;
+  const auto count = static_cast<double>(s.nodes.size());
+  insert_cracks(s.cracks, s.topology, s.nodes, open(facets_in_plane(s, 2e-3)), insertion_options(s));
+  ASSERT_GT(s.nodes.size(), static_cast<Index>(count));
+  EXPECT_NEAR(momentum(s.nodes).mass, before + count * added, 1e-12 * before);
+}
+
 TEST(NodeSplit, RecordsKnowTheNodesOfBothSides) {
   Simulation s = block({4, 4, 4});
   insert_cracks(s.cracks, s.topology, s.nodes, open(facets_in_plane(s, 1e-3)), insertion_options(s));

@@ -145,6 +145,28 @@ TEST(ContactImpulses, CrossedEdgesStopEachOther) {
   }
 }
 
+// Two tets in touch that turn together keep their patch: it turns with them.
+TEST(ContactPairs, AKeptPatchTurnsWithItsTets) {
+  TetMesh mesh = crossed_ridges();
+  make_positive(mesh);
+  Cloud cloud = make_cloud(mesh, {0, 1});
+  for (Index i = 4; i < 8; ++i) cloud.nodes.v[at(i)] = padded({0.0, 0.0, -1.0});
+  let_meet(cloud, 0.003, 30, {.friction = 0.0});
+  ASSERT_EQ(cloud.contact.contacts.size(), 1u);
+  const Contact before = cloud.contact.contacts[0];
+  const Mat3 turn = Eigen::AngleAxisd(0.5, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+  for (Vec4& x : cloud.nodes.x) x = padded(turn * xyz(x));
+  follow_contacts(cloud.contact, {cloud.topology, cloud.nodes.x, cloud.rigid});
+  EXPECT_LT((cloud.contact.contacts[0].place - turn * before.place).norm(), 1e-12);
+  EXPECT_EQ(cloud.contact.contacts[0].normal, before.normal);  // until the next look
+  cloud.refresh();
+  ASSERT_EQ(cloud.contact.contacts.size(), 1u);
+  EXPECT_LT((cloud.contact.contacts[0].normal - turn * before.normal).norm(), 1e-12);
+  for (std::size_t side = 0; side < 2; ++side)
+    for (std::size_t k = 0; k < 4; ++k)
+      EXPECT_NEAR(cloud.contact.contacts[0].sides[side].weights[k], before.sides[side].weights[k], 1e-12);
+}
+
 // A pyramid of four tets about its axis, its tip pointing down into a large tet's flat face.
 TEST(ContactImpulses, ATipOfSeveralTetsSlidesFreelyOnAFrictionlessFace) {
   TetMesh mesh{{Vec3(-9, -9, 0), Vec3(9, -9, 0), Vec3(0, 12, 0), Vec3(0, 0, -9), Vec3(0, 0, 0.005), Vec3(1, 1, 1),
