@@ -36,8 +36,8 @@ namespace knap {
 namespace {
 
 constexpr int text_size = 24;
-constexpr std::array<std::array<unsigned char, 3>, 4> colours{
-    {{31, 90, 160}, {200, 80, 30}, {60, 130, 70}, {120, 80, 150}}};
+constexpr std::array<std::array<unsigned char, 3>, 6> colours{
+    {{31, 90, 160}, {200, 80, 30}, {60, 130, 70}, {120, 80, 150}, {110, 110, 110}, {190, 150, 20}}};
 
 vtkNew<vtkTable> table_of(const PlotSeries& series) {
   vtkNew<vtkTable> table;
@@ -52,12 +52,13 @@ vtkNew<vtkTable> table_of(const PlotSeries& series) {
 
 void add_series(vtkChartXY* chart, const PlotSeries& series, std::size_t number) {
   if (series.x.empty()) return;
-  const bool is_line = series.style == PlotSeries::Style::Line && series.x.size() > 1;
+  const bool is_line = series.style != PlotSeries::Style::Points && series.x.size() > 1;
   vtkPlot* plot = chart->AddPlot(is_line ? vtkChart::LINE : vtkChart::POINTS);
   plot->SetInputData(table_of(series), 0, 1);
   const auto& [red, green, blue] = colours[number % colours.size()];
   plot->SetColor(red, green, blue, 255);
   plot->SetWidth(is_line ? 2.0F * enlargement : 1.0F);
+  if (series.style == PlotSeries::Style::Dashes) plot->GetPen()->SetLineType(vtkPen::DASH_LINE);
   if (is_line) return;
   auto* points = vtkPlotPoints::SafeDownCast(plot);
   points->SetMarkerStyle(vtkPlotPoints::CIRCLE);
@@ -76,8 +77,19 @@ Interval range_of(const PlotInput& input, const std::vector<double> PlotSeries::
   return range;
 }
 
+struct Ticks {
+  double low = 0.0, high = 1.0;  // ends of the axis
+  std::vector<double> positions{};
+  std::vector<std::string> labels{};
+
+  void add(double position, double value) {
+    positions.push_back(position);
+    labels.push_back(fmt::format("{:.6g}", value));
+  }
+};
+
 // About seven round numbers around the values: steps of 1, 2 or 5 times a power of ten.
-void set_ticks(vtkAxis* axis, const Interval& range) {
+Ticks linear_ticks(const Interval& range) {
   constexpr double most_ticks = 8.0;
   const double width = std::max(range.high - range.low, 1e-3 * std::abs(range.high) + 1e-300);
   const double power = std::pow(10.0, std::floor(std::log10(width / most_ticks)));
@@ -86,19 +98,36 @@ void set_ticks(vtkAxis* axis, const Interval& range) {
     if (width / step > most_ticks) step = factor * power;
   double first = std::floor(range.low / step), last = std::ceil(range.high / step);
   if (first == last) first -= 1.0, last += 1.0;  // a single value that is a multiple of the step
-  vtkNew<vtkDoubleArray> positions;
-  vtkNew<vtkStringArray> labels;
-  for (double i = first; i <= last; ++i) {
-    positions->InsertNextValue(i * step);
-    labels->InsertNextValue(fmt::format("{:.6g}", i * step));
-  }
-  axis->SetBehavior(vtkAxis::FIXED);
-  axis->SetRange(first * step, last * step);
-  axis->SetCustomTickPositions(positions, labels);
+  Ticks ticks{.low = first * step, .high = last * step};
+  for (double i = first; i <= last; ++i) ticks.add(i * step, i * step);
+  return ticks;
 }
 
-void set_axis(vtkAxis* axis, const std::string& label, const Interval& range) {
-  set_ticks(axis, range);
+// For values that are decimal logarithms: whole decades, also twice and five times them where there are few.
+Ticks logarithmic_ticks(const Interval& range) {
+  const double margin = std::max(0.04 * (range.high - range.low), 0.02);
+  Ticks ticks{.low = range.low - margin, .high = range.high + margin};
+  const double decades = std::ceil(ticks.high) - std::floor(ticks.low);
+  const double step = std::ceil(decades / 10.0);
+  for (double i = std::floor(ticks.low); i <= ticks.high; i += step)
+    for (const double factor : {1.0, 2.0, 5.0}) {
+      const double value = factor * std::pow(10.0, i), position = std::log10(value);
+      if ((factor == 1.0 || decades <= 3.0) && position >= ticks.low && position <= ticks.high)
+        ticks.add(position, value);
+    }
+  return ticks;
+}
+
+void set_axis(vtkAxis* axis, const std::string& label, const Ticks& ticks) {
+  vtkNew<vtkDoubleArray> positions;
+  vtkNew<vtkStringArray> labels;
+  for (std::size_t i = 0; i < ticks.positions.size(); ++i) {
+    positions->InsertNextValue(ticks.positions[i]);
+    labels->InsertNextValue(ticks.labels[i]);
+  }
+  axis->SetBehavior(vtkAxis::FIXED);
+  axis->SetRange(ticks.low, ticks.high);
+  axis->SetCustomTickPositions(positions, labels);
   axis->SetTitle(label);
   axis->GetTitleProperties()->SetFontSize(enlargement * text_size);
   axis->GetTitleProperties()->SetBold(false);
@@ -107,9 +136,36 @@ void set_axis(vtkAxis* axis, const std::string& label, const Interval& range) {
   axis->GetGridPen()->SetWidth(1.0F * enlargement);
 }
 
+// The corner with the fewest points of the curves, so that the legend hides little.
+void place_legend(vtkChartLegend* legend, const PlotInput& input, const Ticks& x, const Ticks& y) {
+  constexpr double width = 0.4, height = 0.25;  // of a corner, over the page
+  std::array<int, 4> points{};                  // top left, top right, bottom left, bottom right
+  for (const PlotSeries& series : input.series)
+    for (std::size_t i = 0; i < series.x.size(); ++i) {
+      const double right = (series.x[i] - x.low) / (x.high - x.low), up = (series.y[i] - y.low) / (y.high - y.low);
+      const bool in_column = right < width || right > 1.0 - width, in_row = up < height || up > 1.0 - height;
+      if (in_column && in_row) ++points[(right > 0.5 ? 1 : 0) + (up < 0.5 ? 2 : 0)];
+    }
+  const auto corner = std::min_element(points.begin(), points.end()) - points.begin();
+  legend->SetHorizontalAlignment(corner % 2 == 0 ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
+  legend->SetVerticalAlignment(corner < 2 ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
+}
+
+// Values on a logarithmic axis are drawn as their logarithms.
+PlotInput as_drawn(PlotInput input) {
+  for (PlotSeries& series : input.series) {
+    if (input.log_x)
+      for (double& x : series.x) x = std::log10(x);
+    if (input.log_y)
+      for (double& y : series.y) y = std::log10(y);
+  }
+  return input;
+}
+
 }  // namespace
 
-std::string png_of_plot(const PlotInput& input) {
+std::string png_of_plot(const PlotInput& given) {
+  const PlotInput input = as_drawn(given);
   use_one_vtk_thread();
   vtkNew<vtkChartXY> chart;
   constexpr float right_margin = 30.0F * enlargement;  // for half of the last number
@@ -119,10 +175,15 @@ std::string png_of_plot(const PlotInput& input) {
   chart->GetTitleProperties()->SetFontSize(enlargement * (text_size + 4));
   chart->SetShowLegend(input.series.size() > 1);
   chart->GetLegend()->SetLabelSize(enlargement * (text_size - 4));
-  chart->GetLegend()->SetHorizontalAlignment(vtkChartLegend::LEFT);
   for (std::size_t i = 0; i < input.series.size(); ++i) add_series(chart, input.series[i], i);
-  set_axis(chart->GetAxis(vtkAxis::BOTTOM), input.x_label, range_of(input, &PlotSeries::x));
-  set_axis(chart->GetAxis(vtkAxis::LEFT), input.y_label, range_of(input, &PlotSeries::y));
+  const auto ticks = [](bool logarithmic, const Interval& range) {
+    return logarithmic ? logarithmic_ticks(range) : linear_ticks(range);
+  };
+  const Ticks x = ticks(input.log_x, range_of(input, &PlotSeries::x));
+  const Ticks y = ticks(input.log_y, range_of(input, &PlotSeries::y));
+  set_axis(chart->GetAxis(vtkAxis::BOTTOM), input.x_label, x);
+  set_axis(chart->GetAxis(vtkAxis::LEFT), input.y_label, y);
+  place_legend(chart->GetLegend(), input, x, y);
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);
   vtkNew<vtkRenderer> page;

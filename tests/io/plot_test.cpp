@@ -5,6 +5,7 @@
 #include <vtkNew.h>
 #include <vtkPNGReader.h>
 
+#include <cmath>
 #include <limits>
 #include <stdexcept>
 
@@ -44,6 +45,22 @@ TEST_F(Plot, ACurveIsThere) {
 TEST_F(Plot, OnePointIsEnough) {
   draw_plot(folder / "plot.png", {.series = {{"a", {1.0}, {2.0}, PlotSeries::Style::Points}}});
   EXPECT_GT(blue_pixels(folder / "plot.png"), 10);
+}
+
+TEST_F(Plot, APowerLawIsStraightOnLogarithmicAxes) {
+  PlotSeries curve{"law", {}, {}};
+  for (int i = 0; i <= 100; ++i) {
+    curve.x.push_back(std::pow(10.0, 0.05 * i));
+    curve.y.push_back(std::pow(curve.x.back(), -2.0));
+  }
+  draw_plot(folder / "log.png", {.series = {curve}, .log_x = true, .log_y = true});
+  const int straight = blue_pixels(folder / "log.png");
+  draw_plot(folder / "linear.png", {.series = {curve}});
+  // The diagonal of the page, against an L along the axes.
+  EXPECT_GT(straight, 1000);
+  EXPECT_NE(content(folder / "log.png"), content(folder / "linear.png"));
+  curve.y[3] = 0.0;
+  EXPECT_THROW(draw_plot(folder / "no.png", {.series = {curve}, .log_y = true}), RuntimeFailure);
 }
 
 TEST_F(Plot, WhatCannotBeDrawnIsRefused) {
