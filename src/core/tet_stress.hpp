@@ -11,6 +11,8 @@ struct alignas(64) TetStress {
   double volume_ratio = 1.0;                                          ///< J [-], <= 0 when inverted
 };
 
+inline Mat3 as_matrix(const TetStress& s) { return Mat3{{s.xx, s.xy, s.zx}, {s.xy, s.yy, s.yz}, {s.zx, s.yz, s.zz}}; }
+
 /// The stresses of all tets, and for each at least the magnitude of its traction on any plane [Pa]: sixteen of these
 /// fit where one stress does. Minus infinity where a tet sleeps: none of its facets is overloaded.
 struct TetStresses {

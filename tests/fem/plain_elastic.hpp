@@ -6,8 +6,6 @@
 
 namespace knap {
 
-inline Mat3 as_matrix(const TetStress& s) { return Mat3{{s.xx, s.xy, s.zx}, {s.xy, s.yy, s.yz}, {s.zx, s.yz, s.zz}}; }
-
 inline Mat3 gradient_of_tet(const TetReference& tet, const TetCorners& n, std::span<const Vec4> x) {
   return deformation_gradient(tet, xyz(x[at(n[0])]), xyz(x[at(n[1])]), xyz(x[at(n[2])]), xyz(x[at(n[3])]));
 }
