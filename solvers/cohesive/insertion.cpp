@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "cohesive/crack_faces.hpp"
+#include "cohesive/intrinsic_bonds.hpp"
 
 namespace knap {
 namespace {
@@ -65,6 +66,18 @@ void sum_masses(const Topology& topology, NodalState& nodes, std::span<const Ind
   for (const Index corner : star) nodes.mass[at(topology.node_of_corner(corner))] += corner_mass[at(corner >> 2)];
 }
 
+bool was_bond(const InsertionOptions& options, Index facet) {
+  return !options.bond_stiffness.empty() && options.bond_stiffness[at(facet)] > 0.0;
+}
+
+// All interior facets of a particle are bonds, or none is.
+bool has_bonds_at(const Topology& topology, Index vertex, const InsertionOptions& options) {
+  for (const Index corner : topology.corners_of_vertex[vertex])
+    for (const Index facet : topology.tet_facets[at(corner >> 2)])
+      if (facet != none) return was_bond(options, facet);
+  return false;
+}
+
 // The nodes of the records at a vertex follow its corners; records whose two sides have just come apart are activated.
 void refresh_records(CrackState& cracks, const Topology& topology, Index vertex, const InsertionOptions& options) {
   for (CrackRecord& record : cracks.records_of_vertex(vertex)) {
@@ -73,7 +86,7 @@ void refresh_records(CrackState& cracks, const Topology& topology, Index vertex,
     record.node_a = topology.facet_node(face.facet, record.corner, 0);
     record.node_b = topology.facet_node(face.facet, record.corner, 1);
     face.nodes[record.corner] = {record.node_a, record.node_b};
-    if (was_active || record.node_a == record.node_b) continue;
+    if (was_active || record.node_a == record.node_b || was_bond(options, face.facet)) continue;
     const auto& [minus, plus] = topology.facet_tets[at(face.facet)];
     const Vec3 t = facet_traction(options.stress[at(minus)], options.stress[at(plus)], xyz(face.normal));
     record.impulse = -options.dt * face.area / 3.0 * t;
@@ -112,6 +125,30 @@ void open_facets(CrackState& cracks, Topology& topology, const NodalState& nodes
   std::stable_sort(records.begin(), records.end(),
                    [](const VertexRecord& a, const VertexRecord& b) { return a.vertex < b.vertex; });
   add_cracks(cracks, faces, records);
+}
+
+// The springs of bonds have let go; what they held beyond the records is lost as in a closing crack.
+void soften_bonds(CrackState& cracks, const Topology& topology, const NodalState& nodes,
+                  std::span<const OverloadedFacet> facets, const InsertionOptions& options) {
+  for (const OverloadedFacet& overloaded : facets) {
+    const Index facet = overloaded.facet;
+    if (!was_bond(options, facet)) continue;
+    const Index slot = cracks.face_of_facet[at(facet)];
+    const CrackFace& face = cracks.faces[at(slot)];
+    for (int k = 0; k < 3; ++k) {
+      const Index vertex = topology.facet_vertex(facet, k);
+      for (CrackRecord& record : cracks.records_of_vertex(vertex)) {
+        if (record.face != slot) continue;
+        cracks.losses_of_vertex[at(vertex)].closure +=
+            soften_bond(record, options.laws.of(topology.facet_tets[at(facet)][0]),
+                        {.stiffness = options.bond_stiffness[at(facet)],
+                         .area = face.area / 3.0,
+                         .jump = xyz(nodes.x[at(record.node_b)]) - xyz(nodes.x[at(record.node_a)]),
+                         .normal = xyz(face.normal),
+                         .dt = options.dt});
+      }
+    }
+  }
 }
 
 void sort_unique(std::vector<Index>& values) {
@@ -162,10 +199,12 @@ InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState
     for (int k = 0; k < 3; ++k) change.split_vertices.push_back(topology.facet_vertex(overloaded.facet, k));
   sort_unique(change.split_vertices);
   for (const Index vertex : change.split_vertices) {
+    if (has_bonds_at(topology, vertex, options)) continue;
     const auto changed = split_vertex(topology, nodes, vertex, options.corner_mass);
     change.changed_tets.insert(change.changed_tets.end(), changed.begin(), changed.end());
   }
   for (const Index vertex : change.split_vertices) refresh_records(cracks, topology, vertex, options);
+  soften_bonds(cracks, topology, nodes, facets, options);
   group_records(cracks);
   sort_unique(change.changed_tets);
   return change;

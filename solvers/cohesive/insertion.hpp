@@ -14,6 +14,8 @@ struct InsertionOptions {
   std::span<const double> facet_area;       ///< reference [m2]
   std::span<const double> corner_mass;      ///< per tet, a quarter of its mass [kg]
   std::span<const TetStress> stress;        ///< per tet
+  LawsOfTets laws{};
+  std::span<const double> bond_stiffness{};  ///< per facet, of IntrinsicBonds [Pa/m]; empty = all facets were rigid
 };
 
 /// What insertion changed, each list ascending and without repeats.
@@ -24,7 +26,7 @@ struct InsertionChange {
 
 /// Opens the facets: new cohesive records, and a node for every group of tets that no bonded facet joins any more.
 /// Mass, momentum and kinetic energy are kept exactly; a record that becomes active starts with the impulse that the
-/// stresses transmit there.
+/// stresses transmit there. Intrinsic bonds, whose nodes are apart already, become softening records.
 InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState& nodes,
                               std::span<const OverloadedFacet> facets, const InsertionOptions& options);
 

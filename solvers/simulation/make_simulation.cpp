@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 #include "cohesive/fragments.hpp"
 #include "cohesive/insertion.hpp"
@@ -55,6 +56,34 @@ void give_strengths(ReferenceState& reference, const Topology& topology, std::sp
       reference.facet_strength[f] = strengths[f];
       reference.fracture_energy[f] = fracture.fracture_energy;
     }
+  }
+}
+
+// A spring that is so soft that it takes this part of the opening at failure is no bond any more.
+constexpr double largest_bond_opening = 0.5;
+
+// The bonds of the particles of intrinsic insertion take over the strengths of their facets.
+void make_bonds(ReferenceState& reference, const Topology& topology, std::span<const ParticleOptions> particles,
+                std::span<const Material> materials) {
+  IntrinsicBonds& bonds = reference.bonds;
+  for (std::size_t f = 0; f < topology.facet_tets.size(); ++f) {
+    const Index p = reference.particle_of_tet[at(topology.facet_tets[f][0])];
+    const auto& fracture = particles[at(p)].fracture;
+    if (!fracture || fracture->penalty_ratio == 0.0) continue;
+    if (bonds.empty()) {
+      bonds.stiffness.assign(topology.facet_tets.size(), 0.0);
+      bonds.strength = bonds.stiffness;
+    }
+    bonds.stiffness[f] =
+        fracture->penalty_ratio * p_wave_modulus(materials[at(p)].small_strain()) / reference.facet_size[f];
+    bonds.strength[f] = std::exchange(reference.facet_strength[f], std::numeric_limits<double>::infinity());
+    const double opening = bonds.strength[f] / bonds.stiffness[f];
+    if (opening * bonds.strength[f] > largest_bond_opening * 2.0 * reference.fracture_energy[f])
+      throw InputError(fmt::format(
+          "fracture.penalty_ratio = {}: too soft for elements of {:.3g} m; a facet's spring takes up {:.3g} "
+          "m of the {:.3g} m that separate it. Larger values or smaller elements are needed",
+          fracture->penalty_ratio, reference.facet_size[f], opening,
+          2.0 * reference.fracture_energy[f] / bonds.strength[f]));
   }
 }
 
@@ -157,7 +186,12 @@ ReferenceState make_reference(const SimulationOptions& options, std::span<const 
   reference.pair_friction = pair_friction(options.particles, reference.laws);
   weigh(reference, all, topology, materials);
   measure_facets(reference, topology);
-  if (can_break(options)) give_strengths(reference, topology, options.particles);
+  if (!can_break(options)) return reference;
+  give_strengths(reference, topology, options.particles);
+  make_bonds(reference, topology, options.particles, materials);
+  if (!reference.bonds.empty())
+    add_bond_stiffnesses(reference.bonds, topology, {reference.laws, reference.particle_of_tet}, reference.facet_area,
+                         reference.corner_stiffness);
   return reference;
 }
 
@@ -178,6 +212,16 @@ void refuse_overlap(const Simulation& s) {
   throw InputError(
       fmt::format("particles {} and {} overlap at the start, near ({:.4g}, {:.4g}, {:.4g}) m: move them apart",
                   particle(0), particle(1), place.x(), place.y(), place.z()));
+}
+
+void part_bonded_corners(Simulation& s) {
+  if (s.reference.bonds.empty()) return;
+  std::vector<Index> tets;
+  for (Index tet = 0; tet < s.topology.num_tets(); ++tet) {
+    const auto& fracture = s.options.particles[at(s.reference.particle_of_tet[at(tet)])].fracture;
+    if (fracture && fracture->penalty_ratio > 0.0) tets.push_back(tet);
+  }
+  part_corners(s.topology, s.nodes, tets, s.reference.corner_mass);
 }
 
 // `stored` counts as energy that comes in [J]: what a particle made without strain holds is round-off.
@@ -208,6 +252,7 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   s.reference = make_reference(options, meshes, all, s.topology, materials);
   s.nodes = nodes_at_start(options, s.reference, s.topology, meshes);
   refuse_overlap(s);
+  part_bonded_corners(s);
   s.reference.critical_step = critical_time_step(s.topology, s.reference.corner_stiffness, s.nodes.mass);
   s.clock.dt = options.step_safety * s.reference.critical_step;
   s.elastic = make_elastic_force(s.topology, all.vertices, materials, s.reference.particle_of_tet);

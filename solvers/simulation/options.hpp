@@ -16,6 +16,8 @@ struct FractureOptions {
   double weibull_modulus = 0.0;           ///< 0 = uniform strength
   double weibull_reference_volume = 0.0;  ///< [m3]
   std::uint64_t weibull_seed = 1;
+  double penalty_ratio =
+      0.0;  ///< alpha of intrinsic bonds, springs of alpha M/h; 0 = facets are rigid until they crack
 };
 
 /// One particle: its solid, how it breaks, how it starts; SI.

@@ -299,6 +299,8 @@ std::string case_hash(const Simulation& s) {
   for (const Vec3& x : s.reference.vertices) hash.add_bytes(x.data(), 3 * sizeof(double));
   hash.add(s.topology.tet_vertices);
   hash.add(s.reference.facet_strength);
+  hash.add(s.reference.bonds.strength);
+  hash.add(s.reference.bonds.stiffness);
   hash.add(s.reference.fracture_energy);
   const SimulationOptions& o = s.options;
   for (std::size_t p = 0; p < o.particles.size(); ++p) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "cohesive/cohesive_state.hpp"
 #include "cohesive/insertion_criterion.hpp"
+#include "cohesive/intrinsic_bonds.hpp"
 #include "cohesive/vertex_impulses.hpp"
 #include "contact/contact_impulses.hpp"
 #include "contact/tool_edges.hpp"
@@ -33,6 +34,7 @@ struct ReferenceState {
   std::vector<double> facet_area;        ///< [m2]
   std::vector<double> facet_size;        ///< h = 1.5 (V_minus + V_plus)/A [m]
   std::vector<double> facet_strength;    ///< [Pa], infinite in unbreakable particles; empty if all are
+  IntrinsicBonds bonds;                  ///< their facets' strengths are here, infinite above
   std::vector<double> fracture_energy;   ///< per facet [J/m2]
   double mean_edge = 0.0;                ///< [m]
   double critical_step = 0.0;            ///< bound of the unbroken mesh [s]

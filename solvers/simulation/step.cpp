@@ -1,5 +1,6 @@
 #include "simulation/step.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "cohesive/crack_faces.hpp"
@@ -26,20 +27,34 @@ bool looks_for_fragments(const Simulation& s) { return s.clock.step % s.options.
 
 bool has_cracks(const Simulation& s) { return !s.cracks.vertices.empty(); }
 
+BondScene bond_scene(const Simulation& s) {
+  return {s.topology, s.nodes.x, s.reference.facet_area, {s.reference.laws, s.reference.particle_of_tet}};
+}
+
+std::vector<OverloadedFacet> find_overloaded(const Simulation& s) {
+  auto facets = overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound},
+                                  s.reference.facet_strength, {s.reference.laws, s.reference.particle_of_tet});
+  if (s.reference.bonds.empty()) return facets;
+  const auto bonds = overloaded_bonds(s.reference.bonds, bond_scene(s));
+  facets.insert(facets.end(), bonds.begin(), bonds.end());
+  std::sort(facets.begin(), facets.end(), [](const auto& a, const auto& b) { return a.facet < b.facet; });
+  return facets;
+}
+
 void insert_new_cracks(Simulation& s) {
   if (!can_break(s.options) || s.clock.step % s.options.insertion_interval != 0) return;
   const PhaseTimer timer(s.phase_times, Phase::Insertion);
   update_stress(s.elastic, s.nodes.x);
-  const auto overloaded =
-      overloaded_facets(s.topology, s.nodes.x, {s.elastic.stress, s.elastic.stress_bound}, s.reference.facet_strength,
-                        {s.reference.laws, s.reference.particle_of_tet});
+  const auto overloaded = find_overloaded(s);
   if (overloaded.empty()) return;
   const auto change = insert_cracks(s.cracks, s.topology, s.nodes, overloaded,
                                     {.dt = s.clock.dt,
                                      .fracture_energy = s.reference.fracture_energy,
                                      .facet_area = s.reference.facet_area,
                                      .corner_mass = s.reference.corner_mass,
-                                     .stress = s.elastic.stress});
+                                     .stress = s.elastic.stress,
+                                     .laws = {s.reference.laws, s.reference.particle_of_tet},
+                                     .bond_stiffness = s.reference.bonds.stiffness});
   refresh_elastic_force(s.elastic, s.topology, change.changed_tets);
   scale_masses(s, change.split_vertices);
   s.totals.inserted_facets += static_cast<std::int64_t>(overloaded.size());
@@ -49,6 +64,7 @@ void insert_new_cracks(Simulation& s) {
 void update_bulk(Simulation& s) {
   const PhaseTimer timer(s.phase_times, Phase::BulkForces);
   update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, s.clock.dt);
+  if (!s.reference.bonds.empty()) add_bond_forces(s.reference.bonds, bond_scene(s), s.nodes.f);
 }
 
 void kick_nodes(Simulation& s) {
@@ -224,6 +240,7 @@ void update_ledger(Simulation& s) {
   if (can_break(s.options)) {
     const CrackEnergies cracks = crack_energies(s.cracks, s.nodes, impulse_options(s));
     ledger[EnergyTerm::CohesiveStored] = cracks.stored;
+    if (!s.reference.bonds.empty()) ledger[EnergyTerm::CohesiveStored] += bond_energy(s.reference.bonds, bond_scene(s));
     ledger[EnergyTerm::CohesiveDissipated] = cracks.losses.cohesive;
     ledger[EnergyTerm::ClosureImpact] = cracks.losses.closure;
     ledger[EnergyTerm::CrackFriction] = cracks.losses.friction;

@@ -24,7 +24,8 @@ FractureOptions fracture_options(const FractureConfig& fracture) {
           .fracture_energy = fracture.fracture_energy,
           .weibull_modulus = fracture.weibull_modulus,
           .weibull_reference_volume = fracture.weibull_reference_volume,
-          .weibull_seed = static_cast<std::uint64_t>(fracture.weibull_seed)};
+          .weibull_seed = static_cast<std::uint64_t>(fracture.weibull_seed),
+          .penalty_ratio = fracture.insertion == Insertion::Intrinsic ? fracture.penalty_ratio : 0.0};
 }
 
 ParticleOptions particle_options(const ParticleConfig& particle, const ImpactConfig& impact) {

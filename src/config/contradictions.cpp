@@ -119,6 +119,20 @@ void check_repeat(const RunConfig& config, std::vector<std::string>& found) {
   if (config.particles.front().velocity) found.push_back(what + "give impact.speed instead of particle.velocity");
 }
 
+// What is made of extrinsic cracks alone.
+void check_intrinsic(const RunConfig& config, std::vector<std::string>& found) {
+  const auto& particles = config.particles;
+  if (std::none_of(particles.begin(), particles.end(),
+                   [](const ParticleConfig& p) { return p.fracture.insertion == Insertion::Intrinsic; }))
+    return;
+  const auto refuse = [&](const char* key) {
+    found.push_back(fmt::format("fracture.insertion = \"intrinsic\": cannot go with {}; take \"extrinsic\"", key));
+  };
+  if (config.quasistatic.enabled) refuse("quasistatic.enabled = true");
+  if (config.contact.rigid_fragments) refuse("contact.rigid_fragments = true");
+  if (config.impact.repeat > 1) refuse("impact.repeat > 1");
+}
+
 }  // namespace
 
 std::vector<std::string> contradictions(const RunConfig& config) {
@@ -135,6 +149,7 @@ std::vector<std::string> contradictions(const RunConfig& config) {
   check_motion(config, found);
   if (config.quasistatic.enabled) check_quasistatic(config, found);
   if (config.impact.repeat > 1) check_repeat(config, found);
+  check_intrinsic(config, found);
   return found;
 }
 

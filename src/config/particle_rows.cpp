@@ -132,15 +132,21 @@ std::vector<Key> material_keys() {
 std::vector<Key> fracture_keys() {
   using C = FractureConfig;
   constexpr auto in = fracture_of;
-  const std::vector<std::string> insertions{"none", "extrinsic"};
+  const std::vector<std::string> insertions{"none", "extrinsic", "intrinsic"};
   const std::vector<std::string> frictions{"keeps_confined_strength", "blended"};
   const Condition breakable{"insertion is not \"none\"", [](const RunConfig& c, std::size_t i) {
                               return c.particles[i].fracture.insertion != Insertion::None;
                             }};
+  const Condition intrinsic{"insertion = \"intrinsic\"", [](const RunConfig& c, std::size_t i) {
+                              return c.particles[i].fracture.insertion == Insertion::Intrinsic;
+                            }};
   std::vector<Key> keys{
       word("insertion", KeyType::Choice, insertions, value("extrinsic"), choice(in, &C::insertion, insertions),
-           "How cracks come: none (unbreakable) or extrinsic (cohesive elements where the stress reaches the "
-           "strength)."),
+           "How cracks come: none (unbreakable), extrinsic (cohesive elements where the stress reaches the "
+           "strength) or intrinsic (cohesive elements everywhere from the start, much slower: a cross-check)."),
+      only_when(intrinsic, quantity("penalty_ratio", Ratio, "[1, 1000]", value("10"), field(in, &C::penalty_ratio),
+                                    "First stiffness of intrinsic facets over M/h, the P-wave modulus over the size of "
+                                    "their elements; the body is softer by one over it.")),
       quantity("strength", Stress, "[1 Pa, 1 TPa]", required_when(breakable), field(in, &C::strength),
                "Tensile strength sigma_c of a facet."),
       quantity("fracture_energy", SurfaceEnergy, "[1e-6 J/m2, 1e7 J/m2]", derived("required unless toughness is given"),

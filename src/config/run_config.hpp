@@ -37,10 +37,11 @@ enum class CrackFriction {
   Blended                 ///< (1 - D) internal + D sliding friction
 };
 
-enum class Insertion { None, Extrinsic };
+enum class Insertion { None, Extrinsic, Intrinsic };
 
 struct FractureConfig {
   Insertion insertion = Insertion::Extrinsic;
+  double penalty_ratio = 0.0;         ///< alpha of the intrinsic facets' first stiffness alpha M/h [-]
   double strength = 0.0;              ///< sigma_c [Pa]
   double fracture_energy = 0.0;       ///< mode I G_c [J/m2]; K_IC^2 (1 - nu^2)/E when toughness is given
   double toughness = 0.0;             ///< K_IC [Pa m^1/2] as given; 0 when fracture_energy was given instead

@@ -226,5 +226,13 @@ TEST(BadCase, FilesThatCannotBeReadAreNamed) {
   std::filesystem::remove_all(folder);
 }
 
+TEST(BadCase, IntrinsicCracksGoWithFewOptions) {
+  EXPECT_THAT(complaint(shortest, {"fracture.insertion=intrinsic", "contact.rigid_fragments=true"}),
+              HasSubstr("fracture.insertion = \"intrinsic\": cannot go with contact.rigid_fragments = true"));
+  EXPECT_THAT(complaint(shortest, {"fracture.insertion=intrinsic", "impact.repeat=2"}),
+              HasSubstr("cannot go with impact.repeat > 1"));
+  EXPECT_THAT(complaint(shortest, {"fracture.penalty_ratio=20"}), HasSubstr("fracture.penalty_ratio"));
+}
+
 }  // namespace
 }  // namespace knap
