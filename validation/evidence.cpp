@@ -12,9 +12,9 @@ std::string percent(double share) { return fmt::format("{:.3g} %", 100.0 * share
 
 }  // namespace
 
-Verdict verdict(const Metric& metric) {
-  if (std::isinf(metric.low) && std::isinf(metric.high)) return Verdict::Told;
-  return metric.value >= metric.low && metric.value <= metric.high ? Verdict::Passes : Verdict::Out;  // nan is out
+Judgement judge(const Metric& metric) {
+  if (std::isinf(metric.low) && std::isinf(metric.high)) return Judgement::Told;
+  return metric.value >= metric.low && metric.value <= metric.high ? Judgement::Passes : Judgement::Out;  // nan is out
 }
 
 void Evidence::relative(const std::string& name, double value, double reference, double tolerance,

@@ -21,8 +21,8 @@ struct Metric {
   std::string why{};        ///< this tolerance
 };
 
-enum class Verdict { Passes, Out, Told };
-Verdict verdict(const Metric& metric);
+enum class Judgement { Passes, Out, Told };
+Judgement judge(const Metric& metric);
 
 /// A column of a curve: its name with unit, and its values.
 struct Column {
@@ -30,15 +30,23 @@ struct Column {
   std::vector<double> values;
 };
 
+/// How much of a problem is asked for.
+struct Extent {
+  bool is_short = false;
+  bool keeps_runs = false;
+};
+
 /// Collects what a problem shows; writes curve and plot into its folder at once.
 class Evidence {
  public:
   /// `sources` holds reference.csv; the curve and the plot are written into `folder`.
-  Evidence(std::string problem, std::filesystem::path sources, std::filesystem::path folder, bool is_short)
-      : problem_(std::move(problem)), sources_(std::move(sources)), folder_(std::move(folder)), short_(is_short) {}
+  Evidence(std::string problem, std::filesystem::path sources, std::filesystem::path folder, Extent extent = {})
+      : problem_(std::move(problem)), sources_(std::move(sources)), folder_(std::move(folder)), extent_(extent) {}
 
   /// Whether only the quick part is asked for.
-  bool is_short() const { return short_; }
+  bool is_short() const { return extent_.is_short; }
+  /// Whether a study goes on from the runs that its folder has from an earlier session.
+  bool keeps_runs() const { return extent_.keeps_runs; }
   const std::filesystem::path& folder() const { return folder_; }
   /// Reads a CSV file of the problem's own folder in the sources.
   CsvColumns reference(const std::string& file = "reference.csv") const { return read_csv(sources_ / file); }
@@ -63,7 +71,7 @@ class Evidence {
  private:
   std::string problem_;
   std::filesystem::path sources_, folder_;
-  bool short_;
+  Extent extent_;
   std::vector<Metric> metrics_{};
 };
 

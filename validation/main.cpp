@@ -23,6 +23,7 @@ int run_validation(int argc, char** argv) {
   bool list = false;
   CLI::App app("Compares Knap with what is known without it, problem by problem", "validate");
   app.add_flag("--short", options.is_short, "Only what takes little time; results go to out/validation");
+  app.add_flag("--keep", options.keeps_runs, "Studies of many runs go on from those of an earlier session");
   app.add_option("--only", options.only, "Names of problems")->delimiter(',');
   app.add_option("--out", options.out, "Folder of the results; default: validation")->type_name("DIR");
   app.add_option("--jobs", options.jobs, "Problems at a time, one thread each")->check(CLI::Range(1, 1024));

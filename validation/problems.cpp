@@ -9,8 +9,28 @@ std::span<const Problem> problems() {
       // Elastic
       Problem{"patch_test", "elastic", "the law at a homogeneous deformation: exact", show_patch_test},
       // Fracture
+      Problem{"intrinsic_extrinsic", "fracture",
+              "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,
+              false},
       // Contact
       // Particle
+      Problem{"scale_similarity", "particle", "dimensional analysis: exact", show_scale_similarity},
+      Problem{"frictionless_oblique", "particle", "Galilean invariance: exact", show_frictionless_oblique},
+      Problem{"impact_speeds", "particle", "observations on granules (Antonyuk et al. 2006; physics.md section 1)",
+              show_impact_speeds},
+      Problem{"cone_crack", "particle", "cone crack first, then secondary cracks (Antonyuk et al. 2006)",
+              show_cone_crack},
+      Problem{"diametral_compression", "particle", "0.9 F/d^2 (Hiramatsu & Oka 1966), meridional splitting",
+              show_diametral_compression},
+      Problem{"size_effect", "particle",
+              "exponent of size from 0 to 0.42 (dimensional analysis of strength and energy)", show_size_effect, false},
+      Problem{"mesh_study", "particle", "finer and other meshes: critical speed and dissipation within 10 %",
+              show_mesh_study, false},
+      // Convergence
+      Problem{"contact_crushing_zeolite", "convergence", "the same granule on the finest mesh",
+              show_contact_crushing_zeolite, false},
+      Problem{"contact_crushing_alumina", "convergence", "the same granule on the finest mesh",
+              show_contact_crushing_alumina, false},
   };
   return list;
 }

@@ -8,9 +8,21 @@ namespace knap {
 void show_patch_test(Evidence& evidence);
 
 // Fracture
+void show_intrinsic_extrinsic(Evidence& evidence);
 
 // Contact
 
 // Particle
+void show_scale_similarity(Evidence& evidence);
+void show_frictionless_oblique(Evidence& evidence);
+void show_impact_speeds(Evidence& evidence);
+void show_cone_crack(Evidence& evidence);
+void show_diametral_compression(Evidence& evidence);
+void show_size_effect(Evidence& evidence);
+void show_mesh_study(Evidence& evidence);
+
+// Convergence
+void show_contact_crushing_zeolite(Evidence& evidence);
+void show_contact_crushing_alumina(Evidence& evidence);
 
 }  // namespace knap

@@ -35,7 +35,7 @@ Metric metric_of(const Json& json) {
 
 bool passes(const Record& record) {
   return record.failure.empty() && std::none_of(record.metrics.begin(), record.metrics.end(),
-                                                [](const Metric& metric) { return verdict(metric) == Verdict::Out; });
+                                                [](const Metric& metric) { return judge(metric) == Judgement::Out; });
 }
 
 void write_record(const std::filesystem::path& path, const Record& record) {

@@ -12,13 +12,13 @@ namespace {
 
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 
-std::string word(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Passes:
+std::string word(Judgement judgement) {
+  switch (judgement) {
+    case Judgement::Passes:
       return "passes";
-    case Verdict::Out:
+    case Judgement::Out:
       return "OUT";
-    case Verdict::Told:
+    case Judgement::Told:
       break;
   }
   return "told";
@@ -45,7 +45,7 @@ void add_markdown_rows(std::string& text, const Result& result) {
     const std::string tolerance =
         metric.why.empty() ? metric.tolerance
                            : fmt::format("{}{}{}", metric.tolerance, metric.tolerance.empty() ? "" : ": ", metric.why);
-    const std::string said = word(verdict(metric));
+    const std::string said = word(judge(metric));
     text += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", head, cell(metric.name), number(metric.reference),
                         cell(tolerance), number(metric.value), said == "OUT" ? "**OUT**" : said, time);
     head = " | ";
@@ -72,7 +72,7 @@ std::string console_table(std::span<const Result> results) {
     std::string name = result.problem->name, time = duration(result.record->seconds);
     for (const Metric& metric : result.record->metrics) {
       text += fmt::format("{:24} {:44} {:>10} {:>10} {:18} {:7} {:>6}\n", name, metric.name, number(metric.value),
-                          number(metric.reference), metric.tolerance, word(verdict(metric)), time);
+                          number(metric.reference), metric.tolerance, word(judge(metric)), time);
       name.clear(), time.clear();
     }
     if (!result.record->failure.empty())
@@ -88,8 +88,8 @@ std::string totals(std::span<const Result> results) {
     ++run;
     failed += !result.record->failure.empty();
     for (const Metric& metric : result.record->metrics) {
-      const Verdict said = verdict(metric);
-      ++(said == Verdict::Passes ? passed : said == Verdict::Out ? out : told);
+      const Judgement said = judge(metric);
+      ++(said == Judgement::Passes ? passed : said == Judgement::Out ? out : told);
     }
   }
   return fmt::format(

@@ -62,7 +62,8 @@ std::vector<const Problem*> chosen(std::span<const Problem> problems, const Vali
   Record record{.commit = version};
   record.date = fmt::format("{:%Y-%m-%d %H:%M}", fmt::gmtime(std::chrono::system_clock::now()));
   const auto start = Clock::now();
-  Evidence evidence(problem.name, options.sources / problem.name, folder, options.is_short);
+  Evidence evidence(problem.name, options.sources / problem.name, folder,
+                    {.is_short = options.is_short, .keeps_runs = options.keeps_runs});
   try {
     problem.show(evidence);
     if (evidence.metrics().empty()) record.failure = "it compared nothing";

@@ -10,6 +10,7 @@ namespace knap {
 
 struct ValidateOptions {
   bool is_short = false;            ///< leave out what takes long
+  bool keeps_runs = false;          ///< studies go on from the runs of an earlier session
   std::vector<std::string> only{};  ///< names of problems; none = all
   std::filesystem::path sources{};  ///< the folder validation/
   std::filesystem::path out{};      ///< of result.json, curve and plot of each problem, and of results.md

@@ -8,12 +8,13 @@
 
 namespace knap {
 
-CaseRun run_case(const RunConfig& config, const std::string& name, std::span<Observer* const> observers) {
+CaseRun run_case(const RunConfig& config, const std::string& name, const CaseRunOptions& options) {
   constexpr bool quiet = true;
   RunLog log(quiet);
   PreparedRun prepared = prepare_run(config, name, log);
+  if (options.before_run) options.before_run(prepared.simulation);
   const std::atomic<bool> interrupt = false;
-  const StopReason reason = run(prepared.simulation, prepared.limits, observers, interrupt);
+  const StopReason reason = run(prepared.simulation, prepared.limits, options.observers, interrupt);
   if (exit_code(reason) != ExitCode::Ok)
     throw RuntimeFailure(fmt::format("{}: {}", name, failure_message(prepared.simulation, reason)));
   RunOutcome outcome = run_outcome(prepared.simulation, prepared.identity, {.stop_reason = reason});
