@@ -31,6 +31,9 @@ std::span<const Problem> problems() {
               show_contact_crushing_zeolite, false},
       Problem{"contact_crushing_alumina", "convergence", "the same granule on the finest mesh",
               show_contact_crushing_alumina, false},
+      // Sensitivity
+      Problem{"sensitivity", "sensitivity", "the solver's options change nothing; signs of method.md section 6",
+              show_sensitivity, false},
   };
   return list;
 }

@@ -25,4 +25,7 @@ void show_mesh_study(Evidence& evidence);
 void show_contact_crushing_zeolite(Evidence& evidence);
 void show_contact_crushing_alumina(Evidence& evidence);
 
+// Sensitivity
+void show_sensitivity(Evidence& evidence);
+
 }  // namespace knap
