@@ -8,6 +8,7 @@ std::span<const Problem> problems() {
   static const std::array list{
       // Elastic
       Problem{"patch_test", "elastic", "the law at a homogeneous deformation: exact", show_patch_test},
+      Problem{"bar_waves", "elastic", "d'Alembert's waves of speed sqrt(E/rho): exact", show_bar_waves},
       // Fracture
       Problem{"intrinsic_extrinsic", "fracture",
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,
