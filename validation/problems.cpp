@@ -9,6 +9,8 @@ std::span<const Problem> problems() {
       // Elastic
       Problem{"patch_test", "elastic", "the law at a homogeneous deformation: exact", show_patch_test},
       Problem{"bar_waves", "elastic", "d'Alembert's waves of speed sqrt(E/rho): exact", show_bar_waves},
+      Problem{"rigid_spin", "elastic", "a rigid body, and the mean stress of its centrifugal load (virial): exact",
+              show_rigid_spin},
       // Fracture
       Problem{"intrinsic_extrinsic", "fracture",
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,

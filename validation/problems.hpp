@@ -7,6 +7,7 @@ namespace knap {
 // Elastic
 void show_patch_test(Evidence& evidence);
 void show_bar_waves(Evidence& evidence);
+void show_rigid_spin(Evidence& evidence);
 
 // Fracture
 void show_intrinsic_extrinsic(Evidence& evidence);
