@@ -11,6 +11,9 @@ std::span<const Problem> problems() {
       Problem{"bar_waves", "elastic", "d'Alembert's waves of speed sqrt(E/rho): exact", show_bar_waves},
       Problem{"rigid_spin", "elastic", "a rigid body, and the mean stress of its centrifugal load (virial): exact",
               show_rigid_spin},
+      Problem{"free_sphere_modes", "elastic",
+              "frequencies of the free sphere (Lamb 1882, Proc. London Math. Soc. 13, 189; physics.md section 3)",
+              show_free_sphere_modes},
       // Fracture
       Problem{"intrinsic_extrinsic", "fracture",
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,
