@@ -14,6 +14,9 @@ std::span<const Problem> problems() {
       Problem{"free_sphere_modes", "elastic",
               "frequencies of the free sphere (Lamb 1882, Proc. London Math. Soc. 13, 189; physics.md section 3)",
               show_free_sphere_modes},
+      Problem{"hertz", "elastic",
+              "Hertz's law (Johnson 1985, Contact Mechanics, 11.4), and an axisymmetric solution of the same impact",
+              show_hertz},
       // Fracture
       Problem{"intrinsic_extrinsic", "fracture",
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,

@@ -9,6 +9,7 @@ void show_patch_test(Evidence& evidence);
 void show_bar_waves(Evidence& evidence);
 void show_rigid_spin(Evidence& evidence);
 void show_free_sphere_modes(Evidence& evidence);
+void show_hertz(Evidence& evidence);
 
 // Fracture
 void show_intrinsic_extrinsic(Evidence& evidence);
