@@ -17,6 +17,8 @@ std::span<const Problem> problems() {
       Problem{"hertz", "elastic",
               "Hertz's law (Johnson 1985, Contact Mechanics, 11.4), and an axisymmetric solution of the same impact",
               show_hertz},
+      Problem{"chung_ooi", "elastic", "two glass spheres: Chung & Ooi 2011, Granular Matter 13, 643, benchmark 1",
+              show_chung_ooi},
       // Fracture
       Problem{"intrinsic_extrinsic", "fracture",
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,
