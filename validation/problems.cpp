@@ -19,6 +19,9 @@ std::span<const Problem> problems() {
               show_hertz},
       Problem{"chung_ooi", "elastic", "two glass spheres: Chung & Ooi 2011, Granular Matter 13, 643, benchmark 1",
               show_chung_ooi},
+      Problem{"hiramatsu_oka", "elastic",
+              "sphere under two polar caps: series of Hiramatsu & Oka 1966, Int. J. Rock Mech. 3, 89",
+              show_hiramatsu_oka},
       // Fracture
       Problem{"intrinsic_extrinsic", "fracture",
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,
