@@ -22,6 +22,8 @@ std::span<const Problem> problems() {
       Problem{"hiramatsu_oka", "elastic",
               "sphere under two polar caps: series of Hiramatsu & Oka 1966, Int. J. Rock Mech. 3, 89",
               show_hiramatsu_oka},
+      Problem{"energy_conservation", "elastic", "energy of leapfrog: its exact oscillation (w dt)^2/4, no drift",
+              show_energy_conservation},
       // Fracture
       Problem{"intrinsic_extrinsic", "fracture",
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,

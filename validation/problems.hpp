@@ -12,6 +12,7 @@ void show_free_sphere_modes(Evidence& evidence);
 void show_hertz(Evidence& evidence);
 void show_chung_ooi(Evidence& evidence);
 void show_hiramatsu_oka(Evidence& evidence);
+void show_energy_conservation(Evidence& evidence);
 
 // Fracture
 void show_intrinsic_extrinsic(Evidence& evidence);
