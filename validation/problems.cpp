@@ -29,6 +29,7 @@ std::span<const Problem> problems() {
               "the same impact with intrinsic cohesive elements (Xu & Needleman 1994)", show_intrinsic_extrinsic,
               false},
       // Contact
+      Problem{"incline", "contact", "Coulomb: sticks iff tan <= mu, slides at g (sin - mu cos): exact", show_incline},
       // Particle
       Problem{"scale_similarity", "particle", "dimensional analysis: exact", show_scale_similarity},
       Problem{"frictionless_oblique", "particle", "Galilean invariance: exact", show_frictionless_oblique},

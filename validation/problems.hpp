@@ -18,6 +18,7 @@ void show_energy_conservation(Evidence& evidence);
 void show_intrinsic_extrinsic(Evidence& evidence);
 
 // Contact
+void show_incline(Evidence& evidence);
 
 // Particle
 void show_scale_similarity(Evidence& evidence);
