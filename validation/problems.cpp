@@ -30,6 +30,7 @@ std::span<const Problem> problems() {
               false},
       // Contact
       Problem{"incline", "contact", "Coulomb: sticks iff tan <= mu, slides at g (sin - mu cos): exact", show_incline},
+      Problem{"sliding_block", "contact", "Coulomb: stops after v^2/(2 mu g): exact", show_sliding_block},
       // Particle
       Problem{"scale_similarity", "particle", "dimensional analysis: exact", show_scale_similarity},
       Problem{"frictionless_oblique", "particle", "Galilean invariance: exact", show_frictionless_oblique},

@@ -19,6 +19,7 @@ void show_intrinsic_extrinsic(Evidence& evidence);
 
 // Contact
 void show_incline(Evidence& evidence);
+void show_sliding_block(Evidence& evidence);
 
 // Particle
 void show_scale_similarity(Evidence& evidence);
