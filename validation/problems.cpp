@@ -31,6 +31,9 @@ std::span<const Problem> problems() {
       // Contact
       Problem{"incline", "contact", "Coulomb: sticks iff tan <= mu, slides at g (sin - mu cos): exact", show_incline},
       Problem{"sliding_block", "contact", "Coulomb: stops after v^2/(2 mu g): exact", show_sliding_block},
+      Problem{"oblique_rebound", "contact",
+              "oblique elastic rebound: Maw, Barber & Fawcett 1976, Wear 38, 101 (physics.md section 3)",
+              show_oblique_rebound},
       // Particle
       Problem{"scale_similarity", "particle", "dimensional analysis: exact", show_scale_similarity},
       Problem{"frictionless_oblique", "particle", "Galilean invariance: exact", show_frictionless_oblique},

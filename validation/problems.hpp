@@ -20,6 +20,7 @@ void show_intrinsic_extrinsic(Evidence& evidence);
 // Contact
 void show_incline(Evidence& evidence);
 void show_sliding_block(Evidence& evidence);
+void show_oblique_rebound(Evidence& evidence);
 
 // Particle
 void show_scale_similarity(Evidence& evidence);

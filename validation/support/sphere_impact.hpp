@@ -31,6 +31,7 @@ struct SphereImpact {
   double contact_radius() const;   ///< [m]
 };
 
+/// On the wall z = 0.
 Simulation make_impact(const SphereImpact& impact);
 
 /// The mean force in each of many windows.
