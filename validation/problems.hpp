@@ -21,6 +21,7 @@ void show_intrinsic_extrinsic(Evidence& evidence);
 void show_incline(Evidence& evidence);
 void show_sliding_block(Evidence& evidence);
 void show_oblique_rebound(Evidence& evidence);
+void show_bouncing_block(Evidence& evidence);
 
 // Particle
 void show_scale_similarity(Evidence& evidence);
