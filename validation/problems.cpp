@@ -35,6 +35,7 @@ std::span<const Problem> problems() {
               "oblique elastic rebound: Maw, Barber & Fawcett 1976, Wear 38, 101 (physics.md section 3)",
               show_oblique_rebound},
       Problem{"bouncing_block", "contact", "flights of 2 v/g, energy kept: exact", show_bouncing_block},
+      Problem{"collision_momenta", "contact", "momenta and the two-body formula: exact", show_collision_momenta},
       // Particle
       Problem{"scale_similarity", "particle", "dimensional analysis: exact", show_scale_similarity},
       Problem{"frictionless_oblique", "particle", "Galilean invariance: exact", show_frictionless_oblique},

@@ -22,6 +22,7 @@ void show_incline(Evidence& evidence);
 void show_sliding_block(Evidence& evidence);
 void show_oblique_rebound(Evidence& evidence);
 void show_bouncing_block(Evidence& evidence);
+void show_collision_momenta(Evidence& evidence);
 
 // Particle
 void show_scale_similarity(Evidence& evidence);
