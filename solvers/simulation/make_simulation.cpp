@@ -244,6 +244,8 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   if (meshes.empty() || meshes.size() != options.particles.size())
     throw InputError(
         fmt::format("{} meshes for {} particles; each needs one", meshes.size(), options.particles.size()));
+  if (!options.prescribed.empty() && options.rigid_fragments.enabled)
+    throw InputError("nodes of prescribed velocity cannot be part of rigid fragments: leave one of both out");
   const TetMesh all = merged(meshes);
   const std::vector<Material> materials = make_materials(options.particles);
   Simulation s;
@@ -262,6 +264,7 @@ Simulation make_simulation(const SimulationOptions& options, std::span<const Tet
   s.contact.fragments = num_fragments(s.contact.fragment_of_tet);
   s.contact.skin = skin_over_edge * s.reference.mean_edge;
 
+  s.prescribed = make_prescribed(options.prescribed, s.topology.num_vertices());
   s.tools = make_tools(options.tools, s.clock.dt);
   check_tools_are_outside(s);
   s.tool_edges = make_edge_watch(s.tools, spacing_over_edge * s.reference.mean_edge);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "cohesive/linear_softening.hpp"
+#include "loading/prescribed_nodes.hpp"
 #include "loading/tool_options.hpp"
 
 namespace knap {
@@ -53,6 +54,7 @@ struct RigidFragmentOptions {
 struct SimulationOptions {
   std::vector<ParticleOptions> particles = std::vector<ParticleOptions>(1);  ///< one for each mesh
   std::vector<ToolOptions> tools{};
+  std::vector<PrescribedOptions> prescribed{};
   Vec3 gravity = Vec3::Zero();  ///< [m/s2]
   double step_safety = 0.5;     ///< time step over the nodal stability bound
   int insertion_interval = 4;   ///< steps between two checks of the insertion criterion

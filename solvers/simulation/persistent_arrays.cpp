@@ -111,6 +111,9 @@ constexpr auto fields(const ToolState*) {
                     Field{"first_step", &ToolState::first_step},
                     Field{"last_step", &ToolState::last_step}};
 }
+constexpr auto fields(const PrescribedState*) {
+  return std::tuple{Field{"impulse", &PrescribedState::impulse}, Field{"work", &PrescribedState::work}};
+}
 constexpr auto fields(const RunTotals*) {
   return std::tuple{Field{"mass_scaling_energy", &RunTotals::mass_scaling_energy},
                     Field{"added_mass", &RunTotals::added_mass},
@@ -250,6 +253,17 @@ void visit_tools(Visitor& visit, Tools& tools) {
     for (std::size_t k = 0; k < tools.size(); ++k) tools[k].state = states.at(k);
 }
 
+// Their number is the case's; a case without any has no such arrays.
+template <class Visitor, class Groups>
+void visit_prescribed(Visitor& visit, Groups& groups) {
+  if (groups.empty()) return;
+  std::vector<PrescribedState> states;
+  for (const PrescribedNodes& group : groups) states.push_back(group.state);
+  visit.structs("prescribed", states);
+  if constexpr (!std::is_const_v<Groups>)
+    for (std::size_t k = 0; k < groups.size(); ++k) groups[k].state = states.at(k);
+}
+
 /// The list.
 template <class Visitor, class Run>
 void visit_persistent(Visitor visit, Run& s) {
@@ -287,6 +301,7 @@ void visit_persistent(Visitor visit, Run& s) {
   visit_single(visit, "clock", s.clock);
   visit_single(visit, "totals", s.totals);
   visit_tools(visit, s.tools);
+  visit_prescribed(visit, s.prescribed);
   visit_single(visit, "gravity", s.totals.gravity);
   visit_single(visit, "force_watch", s.totals.force_watch);
   visit_single(visit, "ledger", s.ledger);
@@ -315,6 +330,7 @@ std::string case_hash(const Simulation& s) {
   hash.add(s.reference.particle_of_tet);
   hash.add(std::vector{o.step_safety, o.gravity.x(), o.gravity.y(), o.gravity.z()});
   for (const ToolOptions& tool : o.tools) hash.add(defining_numbers(tool));
+  for (const PrescribedOptions& group : o.prescribed) hash.add(defining_numbers(group));
   const RigidFragmentOptions& r = o.rigid_fragments;
   hash.add(std::vector{r.enabled ? 1.0 : 0.0, r.whole ? 1.0 : 0.0, r.quiet_crossings,
                        static_cast<double>(r.quiet_steps), r.noticeable_damage, r.strain_share, r.vibration_share,

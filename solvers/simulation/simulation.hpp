@@ -85,7 +85,8 @@ struct Simulation {
   ContactState contact;
   RigidBodies rigid;
   FreezingState freezing;
-  std::vector<Tool> tools;            ///< in the order of options.tools
+  std::vector<Tool> tools;  ///< in the order of options.tools
+  std::vector<PrescribedNodes> prescribed;
   EdgeWatch tool_edges;               ///< for which of the particle's faces
   std::vector<Index> nodes_on_tools;  ///< touched in the running step, ascending
   EnergyLedger ledger;

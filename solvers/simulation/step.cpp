@@ -74,6 +74,12 @@ void kick_nodes(Simulation& s) {
   kick(s.rigid, s.options.gravity, s.clock.dt);
 }
 
+void lead_prescribed_nodes(Simulation& s) {
+  if (s.prescribed.empty()) return;
+  const PhaseTimer timer(s.phase_times, Phase::Motion);
+  lead_nodes(s.prescribed, s.options.prescribed, s.nodes);
+}
+
 void drift_nodes(Simulation& s) {
   {
     const PhaseTimer timer(s.phase_times, Phase::Motion);
@@ -191,6 +197,8 @@ void book_losses(Simulation& s) {
   book_contact_losses(s.contact, s.nodes, s.rigid);
   if (!has_cracks(s)) return;
   std::vector<Index> changed = s.nodes_on_tools;
+  for (const PrescribedNodes& group : s.prescribed)
+    changed.insert(changed.end(), group.nodes.begin(), group.nodes.end());
   for (const Contact& contact : s.contact.contacts)
     for (const ContactSide& side : contact.sides)
       if (side.is_deformable()) changed.insert(changed.end(), side.nodes.begin(), side.nodes.end());
@@ -208,6 +216,7 @@ void balance_tools(Simulation& s) {
     if (!tool.is_guided()) ledger[EnergyTerm::ToolWork] -= tool.state.work;
     ledger[EnergyTerm::ToolKinetic] += kinetic_energy(tool);
   }
+  for (const PrescribedNodes& group : s.prescribed) ledger[EnergyTerm::ToolWork] -= group.state.work;
   ledger[EnergyTerm::Gravity] = gravity_potential(s, 0.5 * s.clock.dt) - s.reference.start_potential;
 }
 
@@ -265,13 +274,16 @@ void balance_energies(Simulation& s) {
 StepStatus step(Simulation& s) {
   aim_tools(s.tools, s.options.tools, s.options.gravity, s.clock.time(), s.clock.dt);
   insert_new_cracks(s);
+  aim_nodes(s.prescribed, s.options.prescribed, s.topology, s.clock.time(), s.clock.dt);
   update_faces(s);
   detect_contacts(s);
   wake_bodies(s);
   update_bulk(s);
   kick_nodes(s);
+  lead_prescribed_nodes(s);
   apply_crack_impulses(s);
   apply_fragment_contacts(s);
+  lead_prescribed_nodes(s);
   apply_tool_impulses(s);
   settle_bodies(s);
   book_losses(s);
