@@ -11,13 +11,14 @@ Simulation make_bar(const BarOptions& bar) {
   ParticleOptions particle{.young_modulus = bar.young_modulus, .poisson_ratio = 0.0, .density = bar.density};
   particle.fracture = FractureOptions{.strength = bar.strength, .fracture_energy = bar.fracture_energy};
   SimulationOptions options{.particles = {particle}, .step_safety = bar.step_safety};
+  options.prescribed = {{.axes = {false, true, true}}};
+  for (Index i = 0; i < mesh.num_vertices(); ++i) options.prescribed[0].vertices.push_back(i);
   if (bar.ends_are_led) {
-    options.prescribed = {{.axes = {true, false, false}},
-                          {.axes = {true, false, false}, .velocity = {bar.end_speed, 0.0, 0.0}}};
-    for (Index i = 0; i < mesh.num_vertices(); ++i) {
-      if (i < 4) options.prescribed[0].vertices.push_back(i);
-      if (i >= mesh.num_vertices() - 4) options.prescribed[1].vertices.push_back(i);
-    }
+    const Index last = mesh.num_vertices() - 1;
+    options.prescribed.push_back({.vertices = {0, 1, 2, 3}, .axes = {true, false, false}});
+    options.prescribed.push_back({.vertices = {last - 3, last - 2, last - 1, last},
+                                  .axes = {true, false, false},
+                                  .velocity = {bar.end_speed, 0.0, 0.0}});
   }
   Simulation s = make_simulation(options, mesh);
   for (Index f = 0; f < s.topology.num_facets(); ++f)

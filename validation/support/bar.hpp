@@ -1,5 +1,6 @@
 #pragma once
-// A bar along x that answers in one dimension: no Poisson's ratio, a single cell across, cracks only straight across.
+// A bar along x that answers in one dimension: no Poisson's ratio, a single cell across, held
+// across, and cracks only straight across.
 #include "simulation/make_simulation.hpp"
 
 namespace knap {
@@ -12,7 +13,7 @@ struct BarOptions {
   Index cells = 1;
   double cell = 1.0;  ///< edge [m]
   double step_safety = 0.5;
-  bool ends_are_led = false;  ///< options.prescribed 0 and 1: at x = 0, at the other end
+  bool ends_are_led = false;  ///< that at x = 0 is held, the other moves
   double end_speed = 0.0;     ///< of the other end along x [m/s]
 
   double length() const { return cell * cells; }
