@@ -1,0 +1,98 @@
+#include "validation/support/plate.hpp"
+
+#include <limits>
+
+#include "meshing/reorder.hpp"
+#include "meshing/tetrahedralise.hpp"
+#include "simulation/initial_cracks.hpp"
+#include "tests/support/bar_mesh.hpp"
+
+namespace knap {
+namespace {
+
+Vec3 centroid(std::span<const Vec3> vertices, const TetCorners& tet) {
+  Vec3 sum = Vec3::Zero();
+  for (const Index vertex : tet) sum += vertices[at(vertex)];
+  return 0.25 * sum;
+}
+
+}  // namespace
+
+TetMesh plate_mesh(const PlateOptions& plate) {
+  if (plate.is_aligned) {
+    std::array<Index, 3> cells;
+    for (int k = 0; k < 3; ++k)
+      cells[at(k)] = std::max(Index{1}, static_cast<Index>(std::lround(plate.lengths[k] / plate.element)));
+    TetMesh mesh = bar_mesh(cells, 1.0);
+    for (Vec3& x : mesh.vertices)
+      for (int k = 0; k < 3; ++k) x[k] *= plate.lengths[k] / cells[at(k)];
+    return morton_ordered(mesh);
+  }
+  TetrahedraliseOptions options;
+  options.element_size = plate.element;
+  options.seed = plate.seed;
+  TetMesh mesh = tetrahedralise(Box{plate.lengths}, options);
+  for (Vec3& x : mesh.vertices) x += 0.5 * plate.lengths;
+  return mesh;
+}
+
+std::vector<Index> vertices_where(const TetMesh& mesh, const Where& is_there) {
+  std::vector<Index> vertices;
+  for (Index i = 0; i < mesh.num_vertices(); ++i)
+    if (is_there(mesh.vertices[at(i)])) vertices.push_back(i);
+  return vertices;
+}
+
+TetMesh without_tets(const TetMesh& mesh, const Where& is_there) {
+  TetMesh rest{mesh.vertices, {}};
+  for (const TetCorners& tet : mesh.tets)
+    if (!is_there(centroid(mesh.vertices, tet))) rest.tets.push_back(tet);
+  return morton_ordered(rest);
+}
+
+PrescribedOptions plane_strain(const TetMesh& mesh) {
+  const BoundingBox box = bounding_box(mesh);
+  const double margin = 1e-6 * (box.high.z() - box.low.z());
+  const auto on_face = [&](const Vec3& x) { return x.z() < box.low.z() + margin || x.z() > box.high.z() - margin; };
+  return {.vertices = vertices_where(mesh, on_face), .axes = {false, false, true}};
+}
+
+Vec3 facet_middle(const Simulation& s, Index facet) {
+  Vec3 sum = Vec3::Zero();
+  for (int k = 0; k < 3; ++k) sum += s.reference.vertices[at(s.topology.facet_vertex(facet, k))];
+  return sum / 3.0;
+}
+
+std::vector<Index> facets_between(const Simulation& s, int axis, double place) {
+  std::vector<Index> facets;
+  const auto is_above = [&](Index tet) {
+    return centroid(s.reference.vertices, s.topology.tet_vertices[at(tet)])[axis] > place;
+  };
+  for (Index f = 0; f < s.topology.num_facets(); ++f) {
+    const auto& [minus, plus] = s.topology.facet_tets[at(f)];
+    if (is_above(minus) != is_above(plus)) facets.push_back(f);
+  }
+  return facets;
+}
+
+void open_slit(Simulation& s, std::span<const Index> facets, const Where& is_there, const Where& is_zone) {
+  std::vector<InitialCrack> cracks;
+  for (const Index f : facets)
+    if (const Vec3 x = facet_middle(s, f); is_there(x) || is_zone(x)) {
+      const double damage = is_there(x) ? 1.0 : 0.0;
+      cracks.push_back({.facet = f, .strength = s.reference.facet_strength[at(f)], .damage = {damage, damage, damage}});
+    }
+  open_initial_cracks(s, cracks);
+}
+
+void break_only(Simulation& s, const std::function<bool(Index)>& may_break) {
+  for (Index f = 0; f < s.topology.num_facets(); ++f)
+    if (!may_break(f)) s.reference.facet_strength[at(f)] = std::numeric_limits<double>::infinity();
+}
+
+bool has_failed(const Simulation& s, Index facet) {
+  const FacetState state = s.topology.facet_state[at(facet)];
+  return state == FacetState::Failed || state == FacetState::HandedOver;
+}
+
+}  // namespace knap
