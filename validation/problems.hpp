@@ -16,6 +16,12 @@ void show_energy_conservation(Evidence& evidence);
 
 // Fracture
 void show_intrinsic_extrinsic(Evidence& evidence);
+void show_interface_opening(Evidence& evidence);
+void show_work_of_separation(Evidence& evidence);
+void show_mixed_mode(Evidence& evidence);
+void show_spall(Evidence& evidence);
+void show_crack_speed(Evidence& evidence);
+void show_kalthoff_winkler(Evidence& evidence);
 
 // Contact
 void show_incline(Evidence& evidence);
