@@ -13,6 +13,9 @@ constexpr double settled = 1e-6;
 // ... or of the fastest body's speed: bodies that fly along in touch would else be settled to the last bit for ever.
 constexpr double still = 1e-9;
 constexpr Index rows_per_block = 256;
+// The impulses between deformable tets have settled when a sweep changes them by this share, as a root of sums of
+// squares. With less, a large contact that slides slowly loses friction: 2 sweeps leave 0.8 of it, 10 leave 0.98.
+constexpr double settled_impulses = 0.01;
 
 Vec3 side_velocity(const ContactSide& side, const Vec3& place, const std::vector<Vec4>& v, const RigidBodies& rigid,
                    std::span<const Tool> tools) {
@@ -180,15 +183,16 @@ void add_impulse(const Row& row, const Vec4& impulse, std::vector<Vec4>& v) {
   for (std::size_t k = 0; k < 8; ++k) v[at(row.nodes[k])] += row.mobility[k] * impulse;
 }
 
-// The same of two deformable tets.
-void solve(Row& row, std::vector<Vec4>& v) {
+// The same of two deformable tets; returns the change of its impulse, squared [N2 s2].
+double solve(Row& row, std::vector<Vec4>& v) {
   Vec4 velocity = Vec4::Zero();
   for (std::size_t k = 0; k < 8; ++k) velocity += row.weights[k] * v[at(row.nodes[k])];
-  if (row.impulse.isZero(0.0) && dot3(velocity, row.normal) >= 0.0) return;
+  if (row.impulse.isZero(0.0) && dot3(velocity, row.normal) >= 0.0) return 0.0;
   const Vec4 impulse = in_cone(row.impulse - row.normal_mass * velocity, row);
   const Vec4 change = impulse - row.impulse;
   add_impulse(row, change, v);
   row.impulse = impulse;
+  return dot3(change, change);
 }
 
 // The nodes of contacts lie anywhere in memory: asked for ahead. Inlined because GCC takes a function that only
@@ -215,15 +219,19 @@ void warm_start(ContactState& contact, std::vector<Row>& rows, const ContactPart
   }
 }
 
-void sweep(ContactState& contact, std::vector<Row>& rows, const ContactParties& all) {
+// Returns whether the impulses between deformable tets have settled: the sweep has changed them little.
+bool sweep(ContactState& contact, std::vector<Row>& rows, const ContactParties& all) {
+  double changes2 = 0.0, impulses2 = 0.0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     prefetch_nodes(rows, i, all.nodes.v);
     if (rows[i].is_of_deformable_tets) {
-      solve(rows[i], all.nodes.v);
+      changes2 += solve(rows[i], all.nodes.v);
+      impulses2 += dot3(rows[i].impulse, rows[i].impulse);
     } else {
       solve(contact.contacts[i], rows[i], all);
     }
   }
+  return changes2 <= settled_impulses * settled_impulses * impulses2;
 }
 
 // Impacts of rigid bodies one after the other, each at the velocities that those before have left, until none
@@ -299,7 +307,8 @@ void apply_contact_impulses(ContactState& contact, const ContactParties& all, co
       rows_per_block);
   let_rebound(contact, rows, all, options);
   warm_start(contact, rows, all);
-  for (int i = 0; i < options.sweeps; ++i) sweep(contact, rows, all);
+  for (int i = 0; i < std::max(options.sweeps, options.most_sweeps); ++i)
+    if (sweep(contact, rows, all) && i + 1 >= options.sweeps) break;
   for (std::size_t i = 0; i < rows.size(); ++i)
     if (rows[i].is_of_deformable_tets) contact.contacts[i].impulse = xyz(rows[i].impulse);
   settle_bodies(contact, rows, all, options);

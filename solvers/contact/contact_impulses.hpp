@@ -19,7 +19,8 @@ struct ContactOptions {
   double restitution =
       0.0;  ///< between rigid bodies, and of them on tools: speed of parting over speed of approach (Newton) [-]
   double slowest = 0.0;  ///< approach below this speed does not rebound [m/s]
-  int sweeps = 2;        ///< Gauss-Seidel sweeps over all contacts
+  int sweeps = 2;        ///< Gauss-Seidel sweeps over all contacts, at least
+  int most_sweeps = 10;  ///< at most, if the impulses of deformable tets have not settled before
   int rigid_sweeps = 8;  ///< further ones over contacts with a rigid body, until they have settled; impulses are kept,
                          ///< so what is left settles in the steps that follow
   int rebounds = 50;     ///< rounds of impacts of rigid bodies in a step

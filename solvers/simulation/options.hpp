@@ -62,7 +62,7 @@ struct SimulationOptions {
   int ledger_interval = 24;     ///< steps between two energy balances
   int impulse_sweeps = 2;       ///< Gauss-Seidel sweeps of the vertex impulses
   int contact_interval = 8;     ///< steps between two looks for what overlaps
-  int contact_sweeps = 2;       ///< Gauss-Seidel sweeps of the general contact
+  int contact_sweeps = 2;       ///< Gauss-Seidel sweeps of the general contact, at least
   RigidFragmentOptions rigid_fragments{};
   double restitution = 0.0;  ///< between rigid fragments: speed of parting over speed of approach [-]
 };
