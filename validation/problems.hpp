@@ -20,6 +20,7 @@ void show_interface_opening(Evidence& evidence);
 void show_work_of_separation(Evidence& evidence);
 void show_mixed_mode(Evidence& evidence);
 void show_spall(Evidence& evidence);
+void show_expanding_bar(Evidence& evidence);
 void show_crack_speed(Evidence& evidence);
 void show_kalthoff_winkler(Evidence& evidence);
 
@@ -27,6 +28,7 @@ void show_kalthoff_winkler(Evidence& evidence);
 void show_incline(Evidence& evidence);
 void show_sliding_block(Evidence& evidence);
 void show_oblique_rebound(Evidence& evidence);
+void show_two_sphere_rebound(Evidence& evidence);
 void show_bouncing_block(Evidence& evidence);
 void show_collision_momenta(Evidence& evidence);
 

@@ -4,8 +4,7 @@
 // 0.5 is 0.54 instead of 0.76, on any mesh and with any step; with mu = 1 it is 0.72. So the curve is asked at nu =
 // 0.45 (beta 0.09) with mu = 0.5, from the same theory as the table, which it reproduces; at nu = 0.25 where all slides
 // and the balance of momenta alone decides. rho v^2/E* is 1e-7: the lever R - delta of friction is 1 % short at 1e-6
-// already. The pair of spheres that would have no coupling cannot stand in: in the general contact of deformable bodies
-// slow sliding loses friction (a fifth of the impulse at 1e-6, mu = 0.1, less with a smaller step).
+// already. The table itself is compared with where there is no coupling: two_sphere_rebound.
 #include <fmt/format.h>
 
 #include <cmath>

@@ -17,7 +17,7 @@ constexpr double characteristic_length = 323.5e-6;  // of the zeolite [m]
 double critical_speed(Study& study, double ratio) {
   const double diameter = ratio * characteristic_length;
   const double size = std::min(diameter / 12.0, 0.35 * characteristic_length);
-  double low = 4.0, high = 64.0;
+  double low = 4.0, high = ratio < 0.5 ? 256.0 : 64.0;
   while (high / low > 1.04) {
     const double speed = std::sqrt(low * high);
     const GranuleOutcome outcome = study.at_parameters({ratio, speed}, [&] {
@@ -36,7 +36,7 @@ double critical_speed(Study& study, double ratio) {
 }  // namespace
 
 void show_size_effect(Evidence& evidence) {
-  constexpr std::array<double, 5> ratios{0.5, 1.0, 2.0, 4.0, 7.0};
+  constexpr std::array<double, 7> ratios{0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 7.0};
   Study study(evidence.folder() / "study.csv", {"d over l_ch [-]", "speed [m/s]"}, evidence.keeps_runs());
   std::vector<double> x, speeds, exponents;
   for (const double ratio : ratios) {
