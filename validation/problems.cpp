@@ -42,6 +42,8 @@ std::span<const Problem> problems() {
       Problem{"crack_speed", "fracture", "mode I crack below the Rayleigh speed, Freund 1990", show_crack_speed},
       Problem{"kalthoff_winkler", "fracture", "crack at about 70 deg to the notch, Kalthoff & Winkler 1987",
               show_kalthoff_winkler},
+      Problem{"enf", "fracture", "end-notched flexure, mode II: corrected beam theory (Wang & Williams 1992)", show_enf,
+              false},
       // Contact
       Problem{"incline", "contact", "Coulomb: sticks iff tan <= mu, slides at g (sin - mu cos): exact", show_incline},
       Problem{"sliding_block", "contact", "Coulomb: stops after v^2/(2 mu g): exact", show_sliding_block},

@@ -36,6 +36,23 @@ TetMesh plate_mesh(const PlateOptions& plate) {
   return mesh;
 }
 
+TetMesh graded_plate(std::span<const double> x, std::span<const double> y, double thickness) {
+  TetMesh mesh = bar_mesh({to_index(x.size()) - 1, to_index(y.size()) - 1, 1}, 1.0);
+  for (Vec3& v : mesh.vertices)
+    v = {x[static_cast<std::size_t>(std::lround(v.x()))], y[static_cast<std::size_t>(std::lround(v.y()))],
+         thickness * v.z()};
+  return morton_ordered(mesh);
+}
+
+std::vector<double> stretched(double from, double to, double first, double growth) {
+  std::vector<double> places{0.0};
+  for (double size = first; places.back() < (1.0 - 1e-9) * std::abs(to - from); size *= growth)
+    places.push_back(places.back() + size);
+  const double scale = (to - from) / places.back();
+  for (double& place : places) place = from + scale * place;
+  return places;
+}
+
 std::vector<Index> vertices_where(const TetMesh& mesh, const Where& is_there) {
   std::vector<Index> vertices;
   for (Index i = 0; i < mesh.num_vertices(); ++i)

@@ -15,6 +15,12 @@ struct PlateOptions {
 
 TetMesh plate_mesh(const PlateOptions& options);
 
+/// One cell through the thickness between these places along x and y, ascending [m].
+TetMesh graded_plate(std::span<const double> x, std::span<const double> y, double thickness);
+
+/// Places from `from` to `to` whose distances grow from `first` by at most `growth` each time; both ends are there.
+std::vector<double> stretched(double from, double to, double first, double growth);
+
 using Where = std::function<bool(const Vec3&)>;
 std::vector<Index> vertices_where(const TetMesh& mesh, const Where& is_there);
 
