@@ -42,6 +42,9 @@ std::span<const Problem> problems() {
       Problem{"crack_speed", "fracture", "mode I crack below the Rayleigh speed, Freund 1990", show_crack_speed},
       Problem{"kalthoff_winkler", "fracture", "crack at about 70 deg to the notch, Kalthoff & Winkler 1987",
               show_kalthoff_winkler},
+      Problem{"dcb", "fracture",
+              "double cantilever beam: J = G_c (Paris & Paris 1988), compliance (physics.md section 3)", show_dcb,
+              false},
       Problem{"enf", "fracture", "end-notched flexure, mode II: corrected beam theory (Wang & Williams 1992)", show_enf,
               false},
       // Contact
