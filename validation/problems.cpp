@@ -45,6 +45,7 @@ std::span<const Problem> problems() {
       Problem{"dcb", "fracture",
               "double cantilever beam: J = G_c (Paris & Paris 1988), compliance (physics.md section 3)", show_dcb,
               false},
+      Problem{"senb", "fracture", "notched beam in three-point bending: K of ASTM E399", show_senb},
       Problem{"enf", "fracture", "end-notched flexure, mode II: corrected beam theory (Wang & Williams 1992)", show_enf,
               false},
       // Contact

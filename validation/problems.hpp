@@ -24,6 +24,7 @@ void show_expanding_bar(Evidence& evidence);
 void show_crack_speed(Evidence& evidence);
 void show_kalthoff_winkler(Evidence& evidence);
 void show_dcb(Evidence& evidence);
+void show_senb(Evidence& evidence);
 void show_enf(Evidence& evidence);
 
 // Contact
