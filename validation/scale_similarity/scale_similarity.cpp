@@ -1,7 +1,7 @@
-// Dimensional analysis: a granule that is twice as large, four times as stiff and strong, and of twice the density is
-// the same granule in other units, if G_c/(sigma_c d), sigma_c/E and rho v^2/E are what they were. With powers of two
-// the arithmetic itself scales, so the runs must agree to the bit; with a factor of three they agree until round-off
-// has grown to a facet's decision.
+// Dimensional analysis: a granule that is twice as large, four times as stiff and strong, and of sixteen times the
+// density is the same granule in other units, if G_c/(sigma_c d), sigma_c/E and rho v^2/E are what they were. With
+// powers of two the arithmetic itself scales, so the runs must agree to the bit; with a factor of three they agree
+// until round-off has grown to a facet's decision.
 #include <cmath>
 
 #include "cohesive/fragments.hpp"
@@ -75,7 +75,7 @@ void show_scale_similarity(Evidence& evidence) {
   const double size = evidence.is_short() ? 0.2e-3 : 0.12e-3;
   const TetMesh mesh = granule_mesh({.diameter = diameter, .element_size = size, .contact_element_size = size});
   const Outcome one = outcome(mesh, {}, "as it is");
-  const Outcome two = outcome(mesh, {2.0, 4.0, 2.0}, "length x 2, modulus x 4, density x 2");
+  const Outcome two = outcome(mesh, {2.0, 4.0, 16.0}, "length x 2, modulus x 4, density x 16");
   const Outcome three = outcome(mesh, {3.0, 3.0, 1.0}, "length x 3, modulus x 3");
   evidence.at_most("facets in another state, scaled by powers of two [-]", different(one, two), 0.0,
                    "the arithmetic scales exactly");
