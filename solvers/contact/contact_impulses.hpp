@@ -19,7 +19,7 @@ struct ContactOptions {
   double restitution =
       0.0;  ///< between rigid bodies, and of them on tools: speed of parting over speed of approach (Newton) [-]
   double slowest = 0.0;  ///< approach below this speed does not rebound [m/s]
-  int sweeps = 2;        ///< Gauss-Seidel sweeps over all contacts, at least
+  int sweeps = 2;        ///< Gauss-Seidel sweeps over all contacts, forwards and backwards in turn, at least
   int most_sweeps = 10;  ///< at most, if the impulses of deformable tets have not settled before
   int rigid_sweeps = 8;  ///< further ones over contacts with a rigid body, until they have settled; impulses are kept,
                          ///< so what is left settles in the steps that follow
@@ -31,7 +31,8 @@ struct ContactParties {
   NodalState& nodes;
   RigidBodies& rigid;
   std::span<Tool> tools{};
-  double dt = 0.0;  ///< [s]
+  double dt = 0.0;        ///< [s]
+  std::int64_t step = 0;  ///< number of the step: the first sweep of every other one goes backwards
 };
 
 /// Velocity of the second side relative to the first, at the contact's place [m/s].

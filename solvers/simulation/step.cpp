@@ -170,7 +170,7 @@ void apply_fragment_contacts(Simulation& s) {
   if (s.contact.contacts.empty()) return;
   const PhaseTimer timer(s.phase_times, Phase::ContactImpulses);
   apply_contact_impulses(
-      s.contact, {s.nodes, s.rigid, s.tools, s.clock.dt},
+      s.contact, {s.nodes, s.rigid, s.tools, s.clock.dt, s.clock.step},
       {.pairs = {s.reference.pair_friction, s.reference.particle_of_tet, to_index(s.options.particles.size())},
        .restitution = s.options.restitution,
        .slowest = 2.0 * s.options.gravity.norm() * s.clock.dt,

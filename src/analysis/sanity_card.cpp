@@ -174,6 +174,11 @@ SanityCard sanity_card(const SanityInput& input) {
   return card;
 }
 
+double shared_slip_factor(double facets) {
+  const double part = 1.0 / std::max(1.0, facets);
+  return 3.0 - 3.0 * part + part * part;
+}
+
 std::string format_sanity_card(const SanityCard& card) {
   Lines lines{"Sanity card\n"};
   add_particle(lines, card);

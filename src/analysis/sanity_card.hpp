@@ -79,6 +79,11 @@ struct SanityCard {
 
 SanityCard sanity_card(const SanityInput& input);
 
+/// Mode II energy of a zone of `facets` facets in series, shorter than the shear process zone, over that of one facet.
+/// With linear softening all slip together until their slips add up to delta_c (2 - 1/N), then one of them goes on
+/// alone (1 - 1/N)^2: 3 - 3/N + 1/N^2. 1 for one facet or less.
+double shared_slip_factor(double facets);
+
 /// The card as aligned text for terminal and log, one line a number, with verdicts.
 std::string format_sanity_card(const SanityCard& card);
 

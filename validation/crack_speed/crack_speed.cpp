@@ -7,8 +7,8 @@
 
 #include <algorithm>
 
-#include "simulation/step.hpp"
 #include "validation/problems.hpp"
+#include "validation/support/checked_step.hpp"
 #include "validation/support/plate.hpp"
 
 namespace knap {
@@ -58,9 +58,7 @@ Simulation stretched_strip(const PlateOptions& plate, double strain) {
   options.prescribed = {plane_strain(mesh), {.vertices = vertices_where(mesh, on_edges)}};
   Simulation s = make_simulation(options, mesh);
   const auto middle = facets_between(s, 1, half_height);
-  std::vector<bool> in_plane(at(s.topology.num_facets()), false);
-  for (const Index f : middle) in_plane[at(f)] = true;
-  break_only(s, [&](Index f) { return in_plane[at(f)]; });
+  break_only(s, middle);
   for (Vec4& x : s.nodes.x) x.y() += strain * (x.y() - half_height);
   update_elastic_forces(s.elastic, s.nodes.x, s.nodes.f, 0.0);
   open_slit(s, middle, [](const Vec3& x) { return x.x() < first_crack; });
@@ -82,7 +80,7 @@ Run run_crack(const PlateOptions& plate, double ratio) {
   Run run;
   double tip = 0.0;
   while (tip < last && s.clock.time() < 6.0 * last) {
-    if (step(s) != StepStatus::Ok) break;
+    checked_step(s);
     tip = std::max(tip, crack_tip(s));
     if (tip > first && (run.tip.empty() || tip > run.tip.back()))
       run.time.push_back(s.clock.time()), run.tip.push_back(tip);

@@ -96,9 +96,9 @@ void show_diametral_compression(Evidence& evidence) {
   for (const double toughness : {0.2e6, 0.3e6}) {
     if (evidence.is_short()) break;
     Pressed pressed = press(0, toughness);
-    evidence.tell(fmt::format("0.9 F/d^2 over the strength at K_IC = {} MPa m^1/2 [-]", 1e-6 * toughness),
+    evidence.tell(fmt::format("0.9 F/d^2 over the strength at K_IC = {:.2g} MPa m^1/2 [-]", 1e-6 * toughness),
                   pressed.fracture.strength / strength, "the assumed range is 0.15 to 0.3");
-    pressed.force.name = fmt::format("K_IC = {} MPa m^1/2", 1e-6 * toughness);
+    pressed.force.name = fmt::format("K_IC = {:.2g} MPa m^1/2", 1e-6 * toughness);
     plot.series.push_back(pressed.force);
   }
   evidence.plot(plot);

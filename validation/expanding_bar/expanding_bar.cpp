@@ -15,9 +15,9 @@
 #include <numbers>
 
 #include "core/random.hpp"
-#include "simulation/step.hpp"
 #include "validation/problems.hpp"
 #include "validation/support/bar.hpp"
+#include "validation/support/checked_step.hpp"
 
 namespace knap {
 namespace {
@@ -77,7 +77,7 @@ Fragments expand(const Expansion& e) {
   const double least_time = 0.2 * strength / modulus / e.rate + quiet_time;
   double last_change = 0.0, next_look = look_time;
   while (s.clock.time() < least_time || s.clock.time() < last_change + quiet_time) {
-    if (step(s) != StepStatus::Ok) break;
+    checked_step(s);
     if (s.clock.time() < next_look) continue;
     next_look += look_time;
     const auto now = failed_planes(s, bar);

@@ -1,12 +1,12 @@
 // A zeolite granule of 1.5 mm on the wall, slow to fast: what physics.md section 1 collects of observations. Low speeds
 // chip it little, 30 m/s fragments it; the restitution falls; the kinetic energy left has its minimum near the onset of
 // fragmentation, 16.4 m/s by Hertz's peak force and the measured fracture force.
-#include "validation/problems.hpp"
-#include "validation/support/granule_study.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
+
+#include "validation/problems.hpp"
+#include "validation/support/granule_study.hpp"
 
 namespace knap {
 namespace {

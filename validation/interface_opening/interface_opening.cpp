@@ -3,9 +3,9 @@
 //   opening = delta_c (sigma0/sigma_c - 1)(exp(t/tau) - 1),   tau = rho c G_c/sigma_c^2,
 // until they are free at tau ln(1 + 1/(sigma0/sigma_c - 1)): linear softening against two impedances, exact.
 #include "simulation/initial_cracks.hpp"
-#include "simulation/step.hpp"
 #include "validation/problems.hpp"
 #include "validation/support/bar.hpp"
+#include "validation/support/checked_step.hpp"
 
 namespace knap {
 namespace {
@@ -48,7 +48,7 @@ Opening part(double overload, Index cells) {
     result.time.push_back(s.clock.time() / tau);
     result.opening.push_back(mean_opening(s) / delta_c);
     if (result.opening.back() >= 1.0) result.free_after = result.time.back();
-    if (step(s) != StepStatus::Ok) break;
+    checked_step(s);
   }
   return result;
 }

@@ -8,8 +8,8 @@
 #include <numbers>
 
 #include "core/parallel.hpp"
-#include "simulation/step.hpp"
 #include "validation/problems.hpp"
+#include "validation/support/checked_step.hpp"
 #include "validation/support/plate.hpp"
 
 namespace knap {
@@ -69,8 +69,7 @@ void measure(const Simulation& s, double element, Crack& crack) {
 Crack strike(double element, std::int64_t seed, double time) {
   const TetMesh mesh = notched_plate(element, seed);
   Simulation s = struck_plate(mesh, element);
-  while (s.clock.time() < time)
-    if (step(s) != StepStatus::Ok) break;
+  while (s.clock.time() < time) checked_step(s);
   Crack crack;
   measure(s, element, crack);
   crack.closure_error = s.ledger.max_closure_error;

@@ -153,9 +153,9 @@ void show_oblique_rebound(Evidence& evidence) {
   series.push_back({"R omega/(5 mu V_n), the same", exact.psi, exact.omega, PlotSeries::Style::Dashes});
   evidence.curve({{"psi1 [-]", weak.psi},
                   {"e_t [-]", weak.e_t},
-                  {"exact [-]", weak.exact_e_t},
+                  {"exact e_t [-]", weak.exact_e_t},
                   {"R omega/(5 mu V_n) [-]", weak.omega},
-                  {"exact [-]", weak.exact_omega},
+                  {"exact R omega/(5 mu V_n) [-]", weak.exact_omega},
                   {"normal restitution [-]", weak.restitution}});
   evidence.plot({.title = "Oblique rebound of a sphere, nu = 0.45",
                  .x_label = "psi1 = 2 (1 - nu)/(2 - nu) tan(theta)/mu, theta from the normal [-]",

@@ -5,10 +5,9 @@
 #include <cmath>
 
 #include "cohesive/fragments.hpp"
-#include "core/errors.hpp"
-#include "simulation/step.hpp"
 #include "tests/support/granule.hpp"
 #include "validation/problems.hpp"
+#include "validation/support/checked_step.hpp"
 
 namespace knap {
 namespace {
@@ -46,7 +45,7 @@ Outcome outcome(const TetMesh& mesh, const Scale& scale, const std::string& name
   Simulation s = granule(mesh, scale);
   Outcome result{.facets = {}, .fragments = {}, .pieces = {.name = name}};
   while (s.clock.time() < end * scale.time()) {
-    if (step(s) != StepStatus::Ok) throw RuntimeFailure("the energy does not close");
+    checked_step(s);
     if (s.clock.step % 50 != 0) continue;
     const auto labels = fragment_labels(s.topology, s.cracks, FragmentLabel::Damage);
     result.pieces.x.push_back(1e6 * s.clock.time() / scale.time());

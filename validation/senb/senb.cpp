@@ -8,8 +8,8 @@
 // are 0.002 and 0.006. By facet stress K is 5 % larger, see dcb.
 #include <fmt/format.h>
 
-#include "simulation/step.hpp"
 #include "validation/problems.hpp"
+#include "validation/support/checked_step.hpp"
 #include "validation/support/plate.hpp"
 
 namespace knap {
@@ -67,21 +67,14 @@ Simulation make_beam(const Setup& setup) {
   particle.fracture = FractureOptions{.law = {.sliding_friction = 0.0}, .strength = strength};
   particle.fracture->fracture_energy = setup.fracture_energy();
   SimulationOptions options{.particles = {particle}, .step_safety = 0.7};
-  const double ramp = 0.3 * setup.duration;
-  const double way = 1.25 * compliance(setup.notch) * critical_load(setup);
-  const auto on_supports = [&](const Vec3& v) { return v.y() < 1e-9 && std::abs(std::abs(v.x()) - 0.5 * span) < 1e-9; };
-  const auto on_load = [&](const Vec3& v) { return v.y() > 1.0 - 1e-9 && std::abs(v.x()) < 1e-9; };
-  options.prescribed = {plane_strain(mesh),
-                        {.vertices = vertices_where(mesh, on_supports), .axes = {false, true, false}},
-                        {.vertices = vertices_where(mesh, on_load),
-                         .axes = {true, true, false},
-                         .velocity = {0.0, -way / (setup.duration - 0.5 * ramp), 0.0},
-                         .ramp_time = ramp}};
+  options.prescribed = bending(mesh, {.supports = {-0.5 * span, 0.5 * span},
+                                      .place = 0.0,
+                                      .top = 1.0,
+                                      .way = 1.25 * compliance(setup.notch) * critical_load(setup),
+                                      .duration = setup.duration});
   Simulation s = make_simulation(options, mesh);
   const std::vector<Index> middle = facets_between(s, 0, 0.0);
-  std::vector<bool> in_plane(at(s.topology.num_facets()), false);
-  for (const Index f : middle) in_plane[at(f)] = true;
-  break_only(s, [&](Index f) { return in_plane[at(f)]; });
+  break_only(s, middle);
   const double zone = setup.notch + setup.characteristic();
   open_slit(
       s, middle, [&](const Vec3& v) { return v.y() < setup.notch; },
@@ -102,7 +95,8 @@ Bending bend(const Setup& setup) {
   const double way_at_critical = compliance(setup.notch) * critical_load(setup);
   Bending result;
   double last_impulse = 0.0, last_time = 0.0, last_way = 0.0, way = 0.0;
-  while (s.clock.time() < setup.duration && step(s) == StepStatus::Ok) {
+  while (s.clock.time() < setup.duration) {
+    checked_step(s);
     way -= s.prescribed[2].velocity.y() * s.clock.dt;
     if (s.clock.time() < last_time + window) continue;
     const double impulse = s.prescribed[1].state.impulse.y();  // of the supports: where inertia is least

@@ -6,9 +6,9 @@
 
 #include <optional>
 
-#include "simulation/step.hpp"
 #include "validation/problems.hpp"
 #include "validation/support/bar.hpp"
+#include "validation/support/checked_step.hpp"
 
 namespace knap {
 namespace {
@@ -74,7 +74,7 @@ Spall spall(Pulse pulse, double overload, Index cells_per_pulse) {
       [&](double x) { return peak * shape(pulse, front - back - x); });
   Spall result;
   while (s.clock.time() < 2.0 * pulse_length && result.first_break == 0.0) {
-    if (step(s) != StepStatus::Ok) break;
+    checked_step(s);
     if (result.first_crack == 0.0) result.first_crack = place_of(s, bar, false).value_or(0.0);
     if (s.clock.step % 16 == 0) result.first_break = place_of(s, bar, true).value_or(0.0);
   }

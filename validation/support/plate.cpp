@@ -74,6 +74,21 @@ PrescribedOptions plane_strain(const TetMesh& mesh) {
   return {.vertices = vertices_where(mesh, on_face), .axes = {false, false, true}};
 }
 
+std::vector<PrescribedOptions> bending(const TetMesh& mesh, const BeamLoad& load) {
+  const auto is_on = [](double x, double place) { return std::abs(x - place) < 1e-9; };
+  const auto on_supports = [&](const Vec3& v) {
+    return is_on(v.y(), 0.0) && (is_on(v.x(), load.supports[0]) || is_on(v.x(), load.supports[1]));
+  };
+  const auto on_load = [&](const Vec3& v) { return is_on(v.y(), load.top) && is_on(v.x(), load.place); };
+  const double ramp = 0.3 * load.duration;
+  return {plane_strain(mesh),
+          {.vertices = vertices_where(mesh, on_supports), .axes = {false, true, false}},
+          {.vertices = vertices_where(mesh, on_load),
+           .axes = {true, true, false},
+           .velocity = {0.0, -load.way / (load.duration - 0.5 * ramp), 0.0},
+           .ramp_time = ramp}};
+}
+
 Vec3 facet_middle(const Simulation& s, Index facet) {
   Vec3 sum = Vec3::Zero();
   for (int k = 0; k < 3; ++k) sum += s.reference.vertices[at(s.topology.facet_vertex(facet, k))];
@@ -105,6 +120,12 @@ void open_slit(Simulation& s, std::span<const Index> facets, const Where& is_the
 void break_only(Simulation& s, const std::function<bool(Index)>& may_break) {
   for (Index f = 0; f < s.topology.num_facets(); ++f)
     if (!may_break(f)) s.reference.facet_strength[at(f)] = std::numeric_limits<double>::infinity();
+}
+
+void break_only(Simulation& s, std::span<const Index> facets) {
+  std::vector<bool> may_break(at(s.topology.num_facets()), false);
+  for (const Index f : facets) may_break[at(f)] = true;
+  break_only(s, [&](Index f) { return may_break[at(f)]; });
 }
 
 bool has_failed(const Simulation& s, Index facet) {

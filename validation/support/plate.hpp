@@ -27,6 +27,17 @@ std::vector<Index> vertices_where(const TetMesh& mesh, const Where& is_there);
 /// Without the tets whose centroid is there.
 TetMesh without_tets(const TetMesh& mesh, const Where& is_there);
 
+/// A beam on two lines at its foot, pushed down along a line on its top.
+struct BeamLoad {
+  std::array<double, 2> supports{};  ///< x [m]
+  double place = 0.0;                ///< of the load along x [m]
+  double top = 0.0;                  ///< y [m]
+  double way = 0.0;                  ///< of the load by the end [m]
+  double duration = 0.0;             ///< the speed grows in the first 30 % of it [s]
+};
+/// Plane strain, the supports, and the load, in this order; the load's line is held along x.
+std::vector<PrescribedOptions> bending(const TetMesh& mesh, const BeamLoad& load);
+
 /// Both faces z = 0 and z = thickness held along z.
 PrescribedOptions plane_strain(const TetMesh& mesh);
 
@@ -44,6 +55,7 @@ void open_slit(
 
 /// Leaves only these facets breakable.
 void break_only(Simulation& s, const std::function<bool(Index)>& may_break);
+void break_only(Simulation& s, std::span<const Index> facets);
 
 /// No corner of which bears anything any more.
 bool has_failed(const Simulation& s, Index facet);

@@ -12,8 +12,8 @@
 #include <numbers>
 
 #include "core/errors.hpp"
-#include "simulation/step.hpp"
 #include "validation/problems.hpp"
+#include "validation/support/checked_step.hpp"
 #include "validation/support/sphere_impact.hpp"
 
 namespace knap {
@@ -57,8 +57,7 @@ Rebound rebound(double psi, double elements) {
   Simulation s = make_pair_of_spheres(impact);
   const double mass = 0.5 * s.reference.start.mass;
   const double duration = hertz_impact(mass, impact.speed(), impact.reduced_modulus(), impact.radius()).duration;
-  while (s.clock.time() < 1.3 * duration)
-    if (step(s) != StepStatus::Ok) throw RuntimeFailure("the energy does not close");
+  while (s.clock.time() < 1.3 * duration) checked_step(s);
   const auto count = static_cast<std::ptrdiff_t>(s.nodes.x.size() / 2);
   Vec3 centre = Vec3::Zero(), velocity = Vec3::Zero(), spin = Vec3::Zero();
   double own_mass = 0.0, inertia = 0.0;
