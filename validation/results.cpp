@@ -24,10 +24,6 @@ std::string word(Judgement judgement) {
   return "told";
 }
 
-std::string duration(double seconds) {
-  return seconds < 99.5 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.0f} min", seconds / 60.0);
-}
-
 // A cell of a Markdown table.
 std::string cell(std::string text) {
   for (std::size_t i = 0; (i = text.find('|', i)) != std::string::npos; i += 2) text.insert(i, 1, '\\');
@@ -63,6 +59,10 @@ void add_pictures(std::string& text, std::span<const Result> results) {
 }
 
 }  // namespace
+
+std::string duration(double seconds) {
+  return seconds < 99.5 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1f} min", seconds / 60.0);
+}
 
 std::string console_table(std::span<const Result> results) {
   std::string text = fmt::format("{:24} {:44} {:>10} {:>10} {:18} {:7} {:>6}\n", "PROBLEM", "METRIC", "VALUE",

@@ -20,6 +20,8 @@ std::string results_markdown(std::span<const Result> results, const std::string&
 /// "3 problems, 14 metrics in tolerance, 1 OUT, 0 failed"
 std::string totals(std::span<const Result> results);
 
+/// "12 s", "3.4 min", for the reader.
+std::string duration(double seconds);
 /// Processor and number of cores of this machine.
 std::string machine();
 

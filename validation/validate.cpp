@@ -31,10 +31,6 @@ fs::path record_path(const ValidateOptions& options, const Problem& problem) {
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::string minutes(double seconds) {
-  return seconds < 99.5 ? fmt::format("{:.0f} s", seconds) : fmt::format("{:.1f} min", seconds / 60.0);
-}
-
 std::vector<const Problem*> chosen(std::span<const Problem> problems, const ValidateOptions& options) {
   std::vector<std::string> names;
   for (const Problem& problem : problems) names.push_back(problem.name);
@@ -114,7 +110,6 @@ class Queue {
     const Problem* problem = waiting_.front();
     waiting_.pop_front();
     fs::create_directories(options_.out / problem->name);
-    fs::remove(record_path(options_, *problem));
     std::fflush(nullptr);
     const pid_t child = fork();
     if (child < 0) throw RuntimeFailure(fmt::format("cannot start a process: {}", std::strerror(errno)));
@@ -129,8 +124,9 @@ class Queue {
     if (found == running_.end()) return;
     const Job job = found->second;
     running_.erase(found);
-    auto record = read_record(record_path(options_, *job.problem));
-    if (!record) {  // it crashed, or could not write
+    std::optional<Record> record;
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) record = read_record(record_path(options_, *job.problem));
+    if (!record) {  // it crashed, or could not write: then the record there, if any, is an earlier one
       record = Record{.commit = version, .seconds = seconds_since(job.start)};
       record->failure = WIFSIGNALED(status) ? fmt::format("ended by signal {}; see its log.txt", WTERMSIG(status))
                                             : "left no result; see its log.txt";
@@ -146,8 +142,8 @@ class Queue {
       left += std::max(0.0, expected_[other.problem] - seconds_since(other.start));
     const std::size_t count = waiting_.size() + running_.size();
     const std::string outlook =
-        count == 0 ? "" : fmt::format(" ({} left, about {})", count, minutes(left / options_.jobs));
-    fmt::print("{:24} {} {}{}\n", job.problem->name, passes(record) ? "passes" : "FAILS", minutes(record.seconds),
+        count == 0 ? "" : fmt::format(" ({} left, about {})", count, duration(left / options_.jobs));
+    fmt::print("{:24} {} {}{}\n", job.problem->name, passes(record) ? "passes" : "FAILS", duration(record.seconds),
                outlook);
     std::fflush(stdout);
   }

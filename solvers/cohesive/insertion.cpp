@@ -127,26 +127,22 @@ void open_facets(CrackState& cracks, Topology& topology, const NodalState& nodes
   add_cracks(cracks, faces, records);
 }
 
-// The springs of bonds have let go; what they held beyond the records is lost as in a closing crack.
-void soften_bonds(CrackState& cracks, const Topology& topology, const NodalState& nodes,
-                  std::span<const OverloadedFacet> facets, const InsertionOptions& options) {
-  for (const OverloadedFacet& overloaded : facets) {
-    const Index facet = overloaded.facet;
-    if (!was_bond(options, facet)) continue;
-    const Index slot = cracks.face_of_facet[at(facet)];
-    const CrackFace& face = cracks.faces[at(slot)];
-    for (int k = 0; k < 3; ++k) {
-      const Index vertex = topology.facet_vertex(facet, k);
-      for (CrackRecord& record : cracks.records_of_vertex(vertex)) {
-        if (record.face != slot) continue;
-        cracks.losses_of_vertex[at(vertex)].closure +=
-            soften_bond(record, options.laws.of(topology.facet_tets[at(facet)][0]),
-                        {.stiffness = options.bond_stiffness[at(facet)],
-                         .area = face.area / 3.0,
-                         .jump = xyz(nodes.x[at(record.node_b)]) - xyz(nodes.x[at(record.node_a)]),
-                         .normal = xyz(face.normal),
-                         .dt = options.dt});
-      }
+// The springs of a bond have let go; what they held beyond the records is lost as in a closing crack.
+void soften_bond_of(Index facet, CrackState& cracks, const Topology& topology, const NodalState& nodes,
+                    const InsertionOptions& options) {
+  const Index slot = cracks.face_of_facet[at(facet)];
+  const CrackFace& face = cracks.faces[at(slot)];
+  for (int k = 0; k < 3; ++k) {
+    const Index vertex = topology.facet_vertex(facet, k);
+    for (CrackRecord& record : cracks.records_of_vertex(vertex)) {
+      if (record.face != slot) continue;
+      cracks.losses_of_vertex[at(vertex)].closure +=
+          soften_bond(record, options.laws.of(topology.facet_tets[at(facet)][0]),
+                      {.stiffness = options.bond_stiffness[at(facet)],
+                       .area = face.area / 3.0,
+                       .jump = xyz(nodes.x[at(record.node_b)]) - xyz(nodes.x[at(record.node_a)]),
+                       .normal = xyz(face.normal),
+                       .dt = options.dt});
     }
   }
 }
@@ -204,7 +200,8 @@ InsertionChange insert_cracks(CrackState& cracks, Topology& topology, NodalState
     change.changed_tets.insert(change.changed_tets.end(), changed.begin(), changed.end());
   }
   for (const Index vertex : change.split_vertices) refresh_records(cracks, topology, vertex, options);
-  soften_bonds(cracks, topology, nodes, facets, options);
+  for (const OverloadedFacet& overloaded : facets)
+    if (was_bond(options, overloaded.facet)) soften_bond_of(overloaded.facet, cracks, topology, nodes, options);
   group_records(cracks);
   sort_unique(change.changed_tets);
   return change;

@@ -13,14 +13,28 @@ namespace {
 constexpr double crossings_to_watch = 50.0;  // least duration of a run, in d / c_p
 constexpr double crossings_after_contact = 10.0;
 
+HertzImpact impact_of(const SanityInput& input) {
+  return {.reduced_modulus = input.young_modulus / (1.0 - std::pow(input.poisson_ratio, 2)),
+          .density = input.density,
+          .diameter = input.diameter,
+          .speed = std::max(0.0, input.speed * std::sin(input.angle))};
+}
+
+double characteristic_length(const FractureScale& fracture, const HertzImpact& impact) {
+  return impact.reduced_modulus * fracture.fracture_energy / std::pow(fracture.strength, 2);
+}
+
 FractureCard fracture_card(const SanityInput& input, const FractureScale& fracture, const HertzImpact& impact) {
-  const double length = impact.reduced_modulus * fracture.fracture_energy / std::pow(fracture.strength, 2);
+  const double length = characteristic_length(fracture, impact);
   FractureCard card;
   card.characteristic_length = length;
   card.cohesive_zone = {.length = 0.88 * length, .element_size = input.element_size, .wanted = 3.0, .least = 2.0};
   card.shear_zone = {.length = length / std::pow(fracture.shear_strength_ratio, 2),
                      .element_size = input.contact_element_size,
                      .wanted = 3.0};
+  card.crushed_facets = crushed_facets(input);
+  card.mode_ii_ratio = mesh_mode_ii_ratio(input);
+  card.crushed_zone_energy = card.mode_ii_ratio * shared_slip_factor(card.crushed_facets);
   card.final_opening = 2.0 * fracture.fracture_energy / fracture.strength;
   card.critical_speed = critical_speed(impact, fracture.strength);
   return card;
@@ -87,6 +101,10 @@ void add_fracture(Lines& lines, const SanityCard& card) {
   lines.add("char. length", with_prefix(card.fracture->characteristic_length, "m"));
   lines.add("cohesive zone", card.fracture->cohesive_zone);
   lines.add("shear zone", card.fracture->shear_zone);
+  lines.add(
+      "crushed zone", fmt::format("{:.2f} G_c", card.fracture->crushed_zone_energy),
+      fmt::format("in mode II: {:.1f} facets share the slip, mode_ii_ratio {:.3g}{}", card.fracture->crushed_facets,
+                  card.fracture->mode_ii_ratio, law.crushed_zone_facets > 0.0 ? " by crushed_zone_facets" : ""));
 }
 
 void add_contact(Lines& lines, const SanityCard& card) {
@@ -154,10 +172,7 @@ SanityCard sanity_card(const SanityInput& input) {
   card.s_wave_speed = std::sqrt(shear_modulus / input.density);
   card.crossing_time = input.diameter / card.p_wave_speed;
 
-  const HertzImpact impact{.reduced_modulus = input.young_modulus / (1.0 - nu * nu),
-                           .density = input.density,
-                           .diameter = input.diameter,
-                           .speed = card.normal_speed};
+  const HertzImpact impact = impact_of(input);
   if (input.fracture) card.fracture = fracture_card(input, *input.fracture, impact);
   card.contact_time = contact_time(impact);
   // What goes on pressing loads the particle until it breaks, as an impact at the critical speed does.
@@ -172,6 +187,21 @@ SanityCard sanity_card(const SanityInput& input) {
   if (input.time_step) card.num_steps = std::ceil(card.end_time / input.time_step->dt);
   card.wall_time = card.num_steps * input.num_tets * input.cost_per_tet_step;
   return card;
+}
+
+double crushed_facets(const SanityInput& input) {
+  HertzImpact impact = impact_of(input);
+  const FractureScale& fracture = input.fracture.value();
+  impact.speed = critical_speed(impact, fracture.strength);
+  const double shear_zone = characteristic_length(fracture, impact) / std::pow(fracture.shear_strength_ratio, 2);
+  return std::max(1.0, std::min(shear_zone, contact_radius(impact)) / input.contact_element_size);
+}
+
+double mesh_mode_ii_ratio(const SanityInput& input) {
+  const FractureScale& fracture = input.fracture.value();
+  if (fracture.crushed_zone_facets == 0.0) return fracture.mode_ii_ratio;
+  return fracture.mode_ii_ratio * shared_slip_factor(fracture.crushed_zone_facets) /
+         shared_slip_factor(crushed_facets(input));
 }
 
 double shared_slip_factor(double facets) {

@@ -14,6 +14,8 @@ struct FractureScale {
   double strength = 0.0;              ///< sigma_c [Pa]
   double fracture_energy = 0.0;       ///< mode I G_c [J/m2]
   double shear_strength_ratio = 1.0;  ///< beta [-]
+  double mode_ii_ratio = 1.0;         ///< mode II over mode I fracture energy [-]
+  double crushed_zone_facets = 0.0;   ///< facets across the crushed zone that mode_ii_ratio is meant for; 0 = any
 };
 
 struct TimeStepScale {
@@ -58,6 +60,9 @@ struct FractureCard {
   double characteristic_length = 0.0;  ///< l_ch = E' G_c / sigma_c^2, E' = E / (1 - nu^2) (Hillerborg 1976) [m]
   ResolvedLength cohesive_zone{};      ///< 0.88 l_ch (Falk, Needleman & Rice 2001) over the far element size
   ResolvedLength shear_zone{};         ///< l_ch / beta^2 over the contact element size
+  double crushed_facets = 0.0;         ///< across the crushed zone, which share the slip
+  double mode_ii_ratio = 0.0;          ///< for this number of them [-]
+  double crushed_zone_energy = 0.0;    ///< mode II energy of the crushed zone over G_c: mode_ii_ratio times the factor
   double final_opening = 0.0;          ///< delta_c = 2 G_c / sigma_c [m]
   double critical_speed = 0.0;         ///< normal speed at which 0.9 F / d^2 of Hertz's peak force is sigma_c [m/s]
 };
@@ -78,6 +83,12 @@ struct SanityCard {
 };
 
 SanityCard sanity_card(const SanityInput& input);
+
+/// Facets in series across the zone that is crushed under a contact: the shorter of the shear process zone and of the
+/// contact radius at the critical speed, over the element size there; at least one.
+double crushed_facets(const SanityInput& input);
+/// Mode II energy over G_c that gives the crushed zone of this mesh the energy that mode_ii_ratio means.
+double mesh_mode_ii_ratio(const SanityInput& input);
 
 /// Mode II energy of a zone of `facets` facets in series, shorter than the shear process zone, over that of one facet.
 /// With linear softening all slip together until their slips add up to delta_c (2 - 1/N), then one of them goes on

@@ -61,6 +61,9 @@ Json sanity(const SanityCard& card) {
     json["characteristic_length"] = card.fracture->characteristic_length;
     json["cohesive_zone"] = resolved(card.fracture->cohesive_zone);
     json["shear_zone"] = resolved(card.fracture->shear_zone);
+    json["crushed_zone"] = {{"facets", card.fracture->crushed_facets},
+                            {"mode_ii_ratio", card.fracture->mode_ii_ratio},
+                            {"energy_over_fracture_energy", card.fracture->crushed_zone_energy}};
     json["final_opening"] = card.fracture->final_opening;
     json["critical_speed"] = card.fracture->critical_speed;
   }

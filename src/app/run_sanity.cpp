@@ -89,17 +89,26 @@ double press_time(const RunConfig& config, double diameter) {
   return share_of_diameter * diameter / speed + ramp;
 }
 
-SanityInput material_input(const RunConfig& config) {
-  const Approach meeting = approach(config);
-  SanityInput input{.young_modulus = config.particles[0].material.young_modulus,
-                    .poisson_ratio = config.particles[0].material.poisson_ratio,
-                    .density = config.particles[0].material.density,
-                    .speed = meeting.speed,
-                    .angle = meeting.angle,
-                    .end_time = config.run.end_time};
-  const FractureConfig& fracture = config.particles[0].fracture;
+SanityInput material_input(const ParticleConfig& particle) {
+  SanityInput input{.young_modulus = particle.material.young_modulus,
+                    .poisson_ratio = particle.material.poisson_ratio,
+                    .density = particle.material.density};
+  const FractureConfig& fracture = particle.fracture;
   if (fracture.insertion != Insertion::None)
-    input.fracture = {fracture.strength, fracture.fracture_energy, fracture.shear_strength_ratio};
+    input.fracture = FractureScale{.strength = fracture.strength,
+                                   .fracture_energy = fracture.fracture_energy,
+                                   .shear_strength_ratio = fracture.shear_strength_ratio,
+                                   .mode_ii_ratio = fracture.mode_ii_ratio,
+                                   .crushed_zone_facets = fracture.crushed_zone_facets};
+  return input;
+}
+
+SanityInput case_input(const RunConfig& config) {
+  const Approach meeting = approach(config);
+  SanityInput input = material_input(config.particles[0]);
+  input.speed = meeting.speed;
+  input.angle = meeting.angle;
+  input.end_time = config.run.end_time;
   return input;
 }
 
@@ -179,7 +188,7 @@ double measured_elastic_cost(const Simulation& s) {
 }
 
 SanityInput mesh_input(const RunConfig& config, const ParticleMesh& particle) {
-  SanityInput input = material_input(config);
+  SanityInput input = case_input(config);
   input.diameter = particle.diameter;
   input.press_time = press_time(config, particle.diameter);
   input.volume = particle.quality.total_volume;
@@ -191,8 +200,16 @@ SanityInput mesh_input(const RunConfig& config, const ParticleMesh& particle) {
 
 }  // namespace
 
+double mode_ii_ratio(const ParticleConfig& particle, const ParticleMesh& mesh) {
+  SanityInput input = material_input(particle);
+  if (!input.fracture) return particle.fracture.mode_ii_ratio;
+  input.diameter = mesh.diameter;
+  input.contact_element_size = mesh.contact_element_size;
+  return mesh_mode_ii_ratio(input);
+}
+
 SanityCard estimated_card(const RunConfig& config, const Shape& shape) {
-  SanityInput input = material_input(config);
+  SanityInput input = case_input(config);
   input.volume = volume(shape);
   input.diameter = volume_diameter(input.volume);
   input.press_time = press_time(config, input.diameter);

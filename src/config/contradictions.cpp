@@ -41,6 +41,9 @@ void check_fracture(const FractureConfig& fracture, std::vector<std::string>& fo
   if (const double modulus = fracture.weibull_modulus; modulus > 0.0 && modulus < 1.0)
     found.push_back(
         fmt::format("fracture.weibull_modulus = {}: must be 0 (uniform strength) or from 1 to 1000", modulus));
+  if (const double facets = fracture.crushed_zone_facets; facets > 0.0 && facets < 1.0)
+    found.push_back(
+        fmt::format("fracture.crushed_zone_facets = {}: must be 0 (mode_ii_ratio as it is) or from 1 to 100", facets));
   const double energy = fracture.fracture_energy;
   if (energy != 0.0 && !(energy >= 1e-12 && energy <= 1e9))
     found.push_back(

@@ -156,6 +156,10 @@ std::vector<Key> fracture_keys() {
                "Fracture toughness K_IC; G_c = K_IC^2 (1 - nu^2)/E; give this or fracture_energy."),
       quantity("mode_ii_ratio", Ratio, "[0.1, 100]", value("1"), field(in, &C::mode_ii_ratio),
                "Fracture energy in shear (mode II) over that in tension."),
+      quantity("crushed_zone_facets", Ratio, "[0, 100]", value("0"), field(in, &C::crushed_zone_facets),
+               "Facets across the crushed zone under the contact that mode_ii_ratio is meant for: they share the slip, "
+               "so that finer meshes crush less; a mesh with another number of them gets the ratio with which it "
+               "crushes alike. 0 takes mode_ii_ratio as it is."),
       quantity("shear_strength_ratio", Ratio, "[0.1, 100]", value("1.5"), field(in, &C::shear_strength_ratio),
                "Cohesion in shear over tensile strength (beta)."),
       quantity("internal_friction", Ratio, "[0, 10]", value("0.8"), field(in, &C::internal_friction),

@@ -46,6 +46,7 @@ struct FractureConfig {
   double fracture_energy = 0.0;       ///< mode I G_c [J/m2]; K_IC^2 (1 - nu^2)/E when toughness is given
   double toughness = 0.0;             ///< K_IC [Pa m^1/2] as given; 0 when fracture_energy was given instead
   double mode_ii_ratio = 1.0;         ///< mode II over mode I fracture energy [-]
+  double crushed_zone_facets = 0.0;   ///< facets across the crushed zone that mode_ii_ratio is meant for [-]; 0 = any
   double shear_strength_ratio = 1.5;  ///< beta: cohesion over tensile strength [-]
   double internal_friction = 0.8;     ///< mu_i of the criterion and of unbroken facets [-]
   double sliding_friction = 0.1;      ///< mu of failed facets and between fragments [-]

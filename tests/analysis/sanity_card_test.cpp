@@ -47,6 +47,47 @@ TEST(SanityCard, LengthsAreThoseOfTheCohesiveLaw) {
   EXPECT_NEAR(card.fracture->critical_speed, 16.4, 0.05);
 }
 
+// N springs in series that soften linearly with one slip delta_c each, pulled until one has let go.
+double energy_of_series(int facets, int steps) {
+  double energy = 0.0, slip = 0.0;  // of G, in delta_c
+  const double end = 1.0 / facets;  // all together
+  for (int i = 0; i < steps; ++i, slip += end / steps)
+    energy += 2.0 * (1.0 - slip - 0.5 * end / steps) * facets * end / steps;
+  for (int i = 0; i < steps; ++i, slip += (1.0 - end) / steps)
+    energy += 2.0 * (1.0 - slip - 0.5 * (1.0 - end) / steps) * (1.0 - end) / steps;
+  return energy;
+}
+
+TEST(SanityCard, FacetsInSeriesTakeUpToThreeTimesTheEnergyOfOne) {
+  for (const int facets : {1, 2, 3, 5, 40})
+    EXPECT_NEAR(shared_slip_factor(facets), energy_of_series(facets, 1000), 1e-9);
+  EXPECT_EQ(shared_slip_factor(0.3), 1.0);
+  EXPECT_NEAR(shared_slip_factor(1e6), 3.0, 1e-5);
+}
+
+TEST(SanityCard, TheCrushedZoneIsTheShorterOfShearZoneAndContact) {
+  SanityInput input = zeolite();
+  input.contact_element_size = 20e-6;
+  EXPECT_NEAR(crushed_facets(input), 323.1e-6 / 2.25 / 20e-6, 0.01);  // l_ch/beta^2
+  input.fracture->fracture_energy = 100.0;  // now the radius at 16.4 m/s, 0.82 mm (5 pi rho v^2/(4 E*))^(1/5)
+  EXPECT_NEAR(crushed_facets(input), 180e-6 / 20e-6, 0.1);
+  input.contact_element_size = 1.0;
+  EXPECT_EQ(crushed_facets(input), 1.0);
+}
+
+TEST(SanityCard, CrushedZoneFacetsGiveEveryMeshTheSameEnergyThere) {
+  SanityInput input = zeolite();
+  input.fracture->mode_ii_ratio = 2.0;
+  EXPECT_EQ(sanity_card(input).fracture->mode_ii_ratio, 2.0);
+  input.fracture->crushed_zone_facets = 2.0;
+  for (const double element_size : {20e-6, 40e-6, 100e-6}) {
+    input.contact_element_size = element_size;
+    EXPECT_NEAR(sanity_card(input).fracture->crushed_zone_energy, 2.0 * 1.75, 1e-12);
+  }
+  input.contact_element_size = sanity_card(input).fracture->crushed_facets * 100e-6 / 2.0;
+  EXPECT_NEAR(mesh_mode_ii_ratio(input), 2.0, 1e-12);
+}
+
 TEST(SanityCard, WaveSpeedsAndTimesAreThoseOfTheSolid) {
   const SanityCard card = sanity_card(zeolite());
   // nu = 1/4: lambda = mu = 0.4 E, so c_p = sqrt(3) c_s = sqrt(1.2 E / rho).

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "app/prepare_run.hpp"
 #include "config/load_config.hpp"
 #include "meshing/shape.hpp"
 
@@ -50,6 +51,26 @@ TEST(RunSanity, AGivenEndTimeIsKept) {
   EXPECT_DOUBLE_EQ(given.end_time, 3e-6);
   EXPECT_FALSE(run_limits(given).automatic);
   EXPECT_DOUBLE_EQ(run_limits(given).end_time, 3e-6);
+}
+
+// The finer mesh has the lower ratio, and the run takes it.
+TEST(RunSanity, CrushedZoneFacetsSetTheModeIiRatioByTheMesh) {
+  const auto ratio = [](const std::string& size, const std::string& facets) {
+    const std::vector<std::string> overrides{"mesh.contact_element_size=" + size,
+                                             "fracture.crushed_zone_facets=" + facets};
+    const RunConfig config = config_from_text(
+        "[particle]\ndiameter = \"2 mm\"\n[mesh]\nelement_size = \"0.2 mm\"\ncontact_extent = \"0.3 mm\"\n[material]\n"
+        "preset = \"zeolite_4ak\"\n[fracture]\nallow_unresolved = true\n[impact]\nspeed = \"20 m/s\"\n",
+        "case.toml", overrides);
+    RunLog log(true);
+    const PreparedRun run = prepare_run(config, "case", log);
+    EXPECT_EQ(run.simulation.reference.laws.front().kappa, run.identity.card.fracture->mode_ii_ratio);
+    return run.simulation.reference.laws.front().kappa;
+  };
+  EXPECT_EQ(ratio("0.1 mm", "0"), 1.0);
+  const double coarse = ratio("0.1 mm", "2"), fine = ratio("0.06 mm", "2");
+  EXPECT_GT(coarse, 1.05);
+  EXPECT_LT(fine, 0.95 * coarse);
 }
 
 SanityCard card_of_tool(const std::string& motion) {

@@ -109,6 +109,8 @@ TEST(BadCase, ValuesOutOfRangeAreRefused) {
 TEST(BadCase, AWeibullModulusBelowOneIsRefused) {
   EXPECT_THAT(complaint(shortest, {"fracture.weibull_modulus=0.5", "fracture.weibull_reference_volume=1 mm3"}),
               HasSubstr("fracture.weibull_modulus = 0.5: must be 0"));
+  EXPECT_THAT(complaint(shortest, {"fracture.crushed_zone_facets=0.5"}),
+              HasSubstr("fracture.crushed_zone_facets = 0.5: must be 0"));
 }
 
 TEST(BadCase, ABareAngleIsInRadians) {

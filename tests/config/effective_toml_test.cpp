@@ -25,9 +25,10 @@ TEST(EffectiveToml, RoundTripsBitForBit) {
       shortest,
       {"particle.diameter=1.0000000000000002 mm", "mesh.element_size=0.0000912345678901234567", "mesh.perturbation=0.1",
        "material.viscous_ratio=0.3", "material.relaxation_time=2 us", "fracture.toughness=0.212345678 MPa m^1/2",
-       "fracture.weibull_modulus=7.7", "fracture.weibull_reference_volume=0.33 mm3", "fracture.crack_friction=blended",
-       "impact.angle=33.3 deg", "impact.azimuth=-17 deg", "impact.spin=[\"1 rpm\", -0.1, 1e7]", "run.end_time=17.77 us",
-       "run.seed=999999999999999", "output.history_interval=33 ns", "output.picture=false"}));
+       "fracture.crushed_zone_facets=2.5", "fracture.weibull_modulus=7.7", "fracture.weibull_reference_volume=0.33 mm3",
+       "fracture.crack_friction=blended", "impact.angle=33.3 deg", "impact.azimuth=-17 deg",
+       "impact.spin=[\"1 rpm\", -0.1, 1e7]", "run.end_time=17.77 us", "run.seed=999999999999999",
+       "output.history_interval=33 ns", "output.picture=false"}));
 }
 
 TEST(EffectiveToml, KeepsTheSignOfZero) {
