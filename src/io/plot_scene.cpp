@@ -118,6 +118,17 @@ Ticks logarithmic_ticks(const Interval& range) {
   return ticks;
 }
 
+// Markers do not lie on the ends of an axis.
+void leave_room(Ticks& ticks, const PlotInput& input, const std::vector<double> PlotSeries::*values) {
+  PlotInput markers{.log_x = input.log_x, .log_y = input.log_y};
+  for (const PlotSeries& series : input.series)
+    if (series.style == PlotSeries::Style::Points) markers.series.push_back(series);
+  const Interval range = range_of(markers, values);
+  const double room = 0.03 * (ticks.high - ticks.low);
+  ticks.low = std::min(ticks.low, range.low - room);
+  ticks.high = std::max(ticks.high, range.high + room);
+}
+
 void set_axis(vtkAxis* axis, const std::string& label, const Ticks& ticks) {
   vtkNew<vtkDoubleArray> positions;
   vtkNew<vtkStringArray> labels;
@@ -176,11 +187,14 @@ std::string png_of_plot(const PlotInput& given) {
   chart->SetShowLegend(input.series.size() > 1);
   chart->GetLegend()->SetLabelSize(enlargement * (text_size - 4));
   for (std::size_t i = 0; i < input.series.size(); ++i) add_series(chart, input.series[i], i);
-  const auto ticks = [](bool logarithmic, const Interval& range) {
-    return logarithmic ? logarithmic_ticks(range) : linear_ticks(range);
+  const auto ticks_of = [&](bool logarithmic, const std::vector<double> PlotSeries::*values) {
+    const Interval range = range_of(input, values);
+    Ticks ticks = logarithmic ? logarithmic_ticks(range) : linear_ticks(range);
+    leave_room(ticks, input, values);
+    return ticks;
   };
-  const Ticks x = ticks(input.log_x, range_of(input, &PlotSeries::x));
-  const Ticks y = ticks(input.log_y, range_of(input, &PlotSeries::y));
+  const Ticks x = ticks_of(input.log_x, &PlotSeries::x);
+  const Ticks y = ticks_of(input.log_y, &PlotSeries::y);
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), input.x_label, x);
   set_axis(chart->GetAxis(vtkAxis::LEFT), input.y_label, y);
   place_legend(chart->GetLegend(), input, x, y);
