@@ -68,6 +68,28 @@ CLI::App* add_strength(CLI::App& app, StrengthArguments& strength) {
   return command;
 }
 
+/// `knap campaign FILE` and `knap campaign plan FILE`.
+struct CampaignApps {
+  CLI::App* run;
+  CLI::App* plan;
+};
+
+CampaignApps add_campaign(CLI::App& app, CampaignArguments& campaign) {
+  CLI::App* command =
+      app.add_subcommand("campaign", "Run many cases: speeds, angles, seeds, any keys; or go on with them");
+  CLI::App* plan = command->add_subcommand("plan", "Show the runs of a campaign, their expected time and memory");
+  for (CLI::App* one : {command, plan}) {
+    one->add_option("FILE", campaign.campaign_file, "Campaign file (TOML)")->required(one == plan);
+    one->add_option("--out", campaign.out, "Folder of the results; default: out/<name of the campaign>")
+        ->type_name("DIR");
+    one->add_option("--jobs", campaign.jobs, "Runs at a time; default: one a core")
+        ->type_name("N")
+        ->check(CLI::Range(1, 1024));
+  }
+  command->add_flag("--retry", campaign.retries_failed, "Try again what has failed");
+  return {command, plan};
+}
+
 int run_parsed(int argc, char** argv) {
   CLI::App app{"Knap breaks a granule: fracture of a single particle on impact", "knap"};
   app.set_version_flag("--version", std::string("knap ") + version);
@@ -77,6 +99,7 @@ int run_parsed(int argc, char** argv) {
   CheckArguments check;
   MeshArguments mesh;
   ModesArguments modes;
+  CampaignArguments campaign;
   bool markdown = false;
   const CLI::App* run_app = add_run(app, run);
   const CLI::App* strength_app = add_strength(app, strength);
@@ -86,6 +109,7 @@ int run_parsed(int argc, char** argv) {
   add_case(mesh_app, mesh.case_file, mesh.overrides);
   mesh_app->add_option("--out", mesh.out, "Where to write the mesh (.vtu)")->type_name("FILE")->required();
   const CLI::App* modes_app = add_modes(app, modes);
+  const CampaignApps campaign_apps = add_campaign(app, campaign);
   CLI::App* keys_app = app.add_subcommand("keys", "Print every key of a case file");
   keys_app->add_flag("--markdown", markdown, "As a page of documentation");
   try {
@@ -98,6 +122,8 @@ int run_parsed(int argc, char** argv) {
   if (*check_app) return code(check_command(check));
   if (*mesh_app) return code(mesh_command(mesh));
   if (*modes_app) return code(modes_command(modes));
+  if (*campaign_apps.plan) return code(campaign_plan_command(campaign));
+  if (*campaign_apps.run) return code(campaign_command(campaign));
   return code(keys_command(markdown));
 }
 

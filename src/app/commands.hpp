@@ -56,6 +56,17 @@ struct StrengthArguments {
 /// What has been run already is not run again.
 ExitCode strength_command(const StrengthArguments& arguments);
 
+struct CampaignArguments {
+  std::filesystem::path campaign_file;
+  std::filesystem::path out;  ///< "" = out/<name of the campaign>
+  int jobs = 0;               ///< runs at a time; 0 = one a core
+  bool retries_failed = false;
+};
+/// Runs all of a campaign that is not done yet. Fails if a run has failed.
+ExitCode campaign_command(const CampaignArguments& arguments);
+/// Shows the runs of a campaign with their expected time and memory, and runs nothing.
+ExitCode campaign_plan_command(const CampaignArguments& arguments);
+
 /// Prints every key of a case file.
 ExitCode keys_command(bool markdown);
 

@@ -1,8 +1,6 @@
 #include "app/run_folder.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
@@ -134,18 +132,6 @@ void check_folder(const RunFolder& folder, FolderUse use, const RunConfig& confi
 
 }  // namespace
 
-FolderLock::FolderLock(const fs::path& path) : descriptor_(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-  // A file system that knows no locks gives another error, and the run goes on without one.
-  if (descriptor_ < 0 || ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return;
-  ::close(descriptor_);
-  throw InputError(
-      fmt::format("{}: another run writes here; wait for its end, or give another folder with --out", path.string()));
-}
-
-FolderLock::~FolderLock() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 PendingRunFolder::PendingRunFolder(const fs::path& path, FolderUse use, const RunConfig& config)
     : folder_{path}, use_(use), config_(config) {
   check_folder(folder_, use, config);
@@ -154,7 +140,7 @@ PendingRunFolder::PendingRunFolder(const fs::path& path, FolderUse use, const Ru
   make_folder(path);
   if (::access(path.c_str(), W_OK) != 0)
     throw InputError(fmt::format("{}: cannot write into this folder: {}", path.string(), std::strerror(errno)));
-  lock_.emplace(path);
+  lock_.emplace(path, "run");
 }
 
 PendingRunFolder::~PendingRunFolder() {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "config/run_config.hpp"
+#include "io/folder_lock.hpp"
 
 namespace knap {
 
@@ -27,19 +28,6 @@ struct RunFolder {
   std::filesystem::path impacts() const { return path / "impacts.csv"; }
   std::filesystem::path impacts_plot() const { return path / "impacts.png"; }
   RunFolder impact(int number) const { return {path / ("impact_" + std::to_string(number))}; }
-};
-
-/// Keeps other runs out of a folder as long as it lives, or the process does.
-class FolderLock {
- public:
-  /// Throws InputError when another run has the folder.
-  explicit FolderLock(const std::filesystem::path& path);
-  ~FolderLock();
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
- private:
-  int descriptor_;
 };
 
 /// The folder of a run, locked; the run has not started yet. Until it starts nothing that lies there is touched, so

@@ -1,0 +1,153 @@
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
+
+#include "app/commands.hpp"
+#include "app/interrupt.hpp"
+#include "app/run_sanity.hpp"
+#include "app/terminal.hpp"
+#include "campaign/run_campaign.hpp"
+#include "config/load_config.hpp"
+#include "io/csv_line.hpp"
+
+namespace knap {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Memory of a breaking run over its tets (README, Figures), and of the program itself [bytes].
+constexpr double memory_of_tet = 1300.0, memory_of_program = 60e6;
+
+std::string campaign_name(const fs::path& file) {
+  const std::string stem = file.stem().string();  // NAME.campaign of NAME.campaign.toml
+  return stem.ends_with(".campaign") ? stem.substr(0, stem.size() - 9) : stem;
+}
+
+CampaignFolder folder_of(const CampaignArguments& arguments) {
+  return {arguments.out.empty() ? fs::path("out") / campaign_name(arguments.campaign_file) : arguments.out};
+}
+
+int num_jobs(const CampaignArguments& arguments) {
+  return arguments.jobs > 0 ? arguments.jobs : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+// One thread a run unless the campaign says otherwise: runs side by side use all cores.
+CampaignConfig load(const CampaignArguments& arguments) {
+  if (arguments.campaign_file.empty())
+    throw InputError("campaign: give a campaign file, such as cases/smoke.campaign.toml");
+  CampaignConfig campaign = load_campaign(arguments.campaign_file);
+  campaign.overrides.insert(campaign.overrides.begin(), "run.threads=1");
+  return campaign;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
+  if (seconds < 5970.0) return fmt::format("{:.0f} min", seconds / 60.0);
+  return fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+/// What a run will cost.
+struct Cost {
+  double tets = 0.0, seconds = 0.0, bytes = 0.0;
+};
+
+Cost cost_of(const RunConfig& config) {
+  const auto shape = particle_shape(config.particles[0]);
+  const SanityCard card =
+      shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config.particles[0]));
+  const double tets = card.input.num_tets;
+  return {tets, card.wall_time, memory_of_program + memory_of_tet * tets};
+}
+
+// Every case of a campaign is checked before the first one runs, so that nothing fails in the middle of the night.
+std::vector<Cost> checked_costs(const CampaignConfig& campaign, const std::vector<CampaignRun>& runs) {
+  std::vector<Cost> costs;
+  for (const CampaignRun& run : runs) {
+    try {
+      costs.push_back(cost_of(load_config(campaign.base, overrides_of(campaign, run))));
+    } catch (const InputError& error) {
+      throw InputError(fmt::format("run {}: {}", run.name, error.what()));
+    }
+  }
+  return costs;
+}
+
+void show(const CampaignProgress& now, bool is_live) {
+  std::string line = fmt::format("{} of {} done, {} running, {} failed, {} waiting", now.done, now.total(), now.running,
+                                 now.failed, now.waiting);
+  if (now.seconds_left > 0.0 && now.running > 0) line += fmt::format(", about {} left", duration(now.seconds_left));
+  if (is_live)
+    fmt::print("\r\x1b[K{}", line);
+  else
+    fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+// On a terminal always; in a file only when something has changed.
+std::function<void(const CampaignProgress&)> live_table() {
+  const bool is_live = is_terminal(STDOUT_FILENO);
+  return [is_live, last = std::size_t{0}, first = true](const CampaignProgress& now) mutable {
+    if (!is_live && !first && now.done + now.failed == last) return;
+    last = now.done + now.failed, first = false;
+    show(now, is_live);
+  };
+}
+
+void tell_failures(const CampaignConfig& campaign, const CampaignFolder& folder) {
+  for (const CampaignRun& run : campaign_runs(campaign))
+    if (const RunStatus status = status_of(folder, campaign, run); status.state == RunState::Failed)
+      fmt::print(stderr, "error: {}: {}\n", run.name, status.reason);
+}
+
+}  // namespace
+
+ExitCode campaign_plan_command(const CampaignArguments& arguments) {
+  const CampaignConfig campaign = load(arguments);
+  const CampaignFolder folder = folder_of(arguments);
+  const std::vector<CampaignRun> runs = campaign_runs(campaign);
+  const std::vector<Cost> costs = checked_costs(campaign, runs);
+  double seconds = 0.0, most = 0.0;
+  std::size_t done = 0, width = 3;
+  for (const CampaignRun& run : runs) width = std::max(width, run.name.size());
+  fmt::print("{:<{}} {:>8} {:>8} {:>9} {}\n", "run", width, "tets", "time", "memory", "state");
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    const RunStatus status = status_of(folder, campaign, runs[i]);
+    fmt::print("{:<{}} {:>8} {:>8} {:>6.0f} MB {}\n", runs[i].name, width, costs[i].tets, duration(costs[i].seconds),
+               1e-6 * costs[i].bytes, name(status.state));
+    if (status.state == RunState::Done)
+      ++done;
+    else
+      seconds += costs[i].seconds;
+    most = std::max(most, costs[i].bytes);
+  }
+  const int jobs = num_jobs(arguments);
+  fmt::print("\n{} runs, {} done; about {} of one core for the others, {} with {} at a time; memory up to {:.2g} GB\n",
+             runs.size(), done, duration(seconds), duration(seconds / jobs), jobs, 1e-9 * most * jobs);
+  std::fflush(stdout);
+  return ExitCode::Ok;
+}
+
+ExitCode campaign_command(const CampaignArguments& arguments) {
+  const CampaignConfig campaign = load(arguments);
+  const CampaignFolder folder = folder_of(arguments);
+  checked_costs(campaign, campaign_runs(campaign));
+  catch_interrupts();
+  const auto engine = make_local_engine(num_jobs(arguments));
+  const CampaignOptions options{folder, read_text(arguments.campaign_file), fs::read_symlink("/proc/self/exe"),
+                                arguments.retries_failed};
+  const CampaignProgress end = run_campaign(campaign, options, *engine, live_table(), interrupt_requested());
+  if (is_terminal(STDOUT_FILENO)) fmt::print("\n");
+  tell_failures(campaign, folder);
+  if (end.waiting > 0) {
+    fmt::print(stderr, "interrupted; the same command goes on with it\n");
+    return ExitCode::Interrupted;
+  }
+  fmt::print("{} runs done ({} of them before), {} failed; results in {}\n", end.done, end.done_before, end.failed,
+             folder.results().string());
+  std::fflush(stdout);
+  return end.failed > 0 ? ExitCode::Failure : ExitCode::Ok;
+}
+
+}  // namespace knap
