@@ -48,12 +48,12 @@ std::string duration(double seconds) {
   return fmt::format("{:.1f} h", seconds / 3600.0);
 }
 
-/// What a run will cost.
+/// What a run is expected to cost.
 struct Cost {
   double tets = 0.0, seconds = 0.0, bytes = 0.0;
 };
 
-Cost cost_of(const RunConfig& config) {
+Cost expected_cost(const RunConfig& config) {
   const auto shape = particle_shape(config.particles[0]);
   const SanityCard card =
       shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config.particles[0]));
@@ -66,7 +66,7 @@ std::vector<Cost> checked_costs(const CampaignConfig& campaign, const std::vecto
   std::vector<Cost> costs;
   for (const CampaignRun& run : runs) {
     try {
-      costs.push_back(cost_of(load_config(campaign.base, overrides_of(campaign, run))));
+      costs.push_back(expected_cost(load_config(campaign.base, overrides_of(campaign, run))));
     } catch (const InputError& error) {
       throw InputError(fmt::format("run {}: {}", run.name, error.what()));
     }
@@ -93,6 +93,23 @@ std::function<void(const CampaignProgress&)> live_table() {
     last = now.done + now.failed, first = false;
     show(now, is_live);
   };
+}
+
+// By what the runs done have cost; every run alike, since a larger campaign has the same axes with more values.
+void tell_scale(const CampaignConfig& campaign, const CampaignFolder& folder) {
+  constexpr double large = 10000.0;
+  RunCost sum;
+  double done = 0.0;
+  for (const CampaignRun& run : campaign_runs(campaign)) {
+    if (status_of(folder, campaign, run).state != RunState::Done) continue;
+    const RunCost cost = cost_of(folder, run);
+    sum.core_seconds += cost.core_seconds, sum.bytes += cost.bytes, ++done;
+  }
+  if (done == 0.0)
+    throw InputError(fmt::format("{}: no run is done yet: --scale tells by measured times", folder.path.string()));
+  fmt::print("10,000 such runs: {:.3g} core hours, {:.3g} GB, by {} done: {:.3g} s and {:.3g} MB each\n",
+             large / 3600.0 * sum.core_seconds / done, 1e-9 * large * sum.bytes / done, done, sum.core_seconds / done,
+             1e-6 * sum.bytes / done);
 }
 
 void tell_failures(const CampaignConfig& campaign, const CampaignFolder& folder) {
@@ -125,6 +142,7 @@ ExitCode campaign_plan_command(const CampaignArguments& arguments) {
   const int jobs = num_jobs(arguments);
   fmt::print("\n{} runs, {} done; about {} of one core for the others, {} with {} at a time; memory up to {:.2g} GB\n",
              runs.size(), done, duration(seconds), duration(seconds / jobs), jobs, 1e-9 * most * jobs);
+  if (arguments.scales) tell_scale(campaign, folder);
   std::fflush(stdout);
   return ExitCode::Ok;
 }

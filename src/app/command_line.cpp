@@ -86,6 +86,7 @@ CampaignApps add_campaign(CLI::App& app, CampaignArguments& campaign) {
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
   }
+  plan->add_flag("--scale", campaign.scales, "Tell by the runs done what 10,000 such runs cost in core hours and disk");
   command->add_flag("--retry", campaign.retries_failed, "Try again what has failed");
   return {command, plan};
 }

@@ -61,6 +61,7 @@ struct CampaignArguments {
   std::filesystem::path out;  ///< "" = out/<name of the campaign>
   int jobs = 0;               ///< runs at a time; 0 = one a core
   bool retries_failed = false;
+  bool scales = false;  ///< of the plan: tell what 10,000 such runs cost
 };
 /// Runs all of a campaign that is not done yet. Fails if a run has failed.
 ExitCode campaign_command(const CampaignArguments& arguments);

@@ -16,10 +16,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_finished(const fs::path& report) {
-  std::ifstream file(report);
+// Empty if there is none.
+nlohmann::json report_in(const fs::path& run) {
+  std::ifstream file(run / "report.json");
   const auto json = nlohmann::json::parse(file, nullptr, false);
-  return !json.is_discarded() && json.value("status", "") == "finished";
+  return json.is_object() ? json : nlohmann::json::object();
 }
 
 }  // namespace
@@ -48,9 +49,17 @@ RunStatus status_of(const CampaignFolder& folder, const CampaignConfig& campaign
     throw InputError(fmt::format(
         "{}: was run with another case: the campaign or its base has changed since; give another folder with --out",
         folder.run(run).string()));
-  if (is_finished(folder.run(run) / "report.json")) status.state = RunState::Done;
+  if (report_in(folder.run(run)).value("status", "") == "finished") status.state = RunState::Done;
   status.can_resume = fs::exists(folder.run(run) / "checkpoint.h5");
   return status;
+}
+
+RunCost cost_of(const CampaignFolder& folder, const CampaignRun& run) {
+  const auto performance = report_in(folder.run(run)).value("performance", nlohmann::json::object());
+  RunCost cost{.core_seconds = performance.value("wall_s", 0.0) * performance.value("threads", 1.0)};
+  for (const auto& entry : fs::recursive_directory_iterator(folder.run(run)))
+    if (entry.is_regular_file()) cost.bytes += static_cast<double>(entry.file_size());
+  return cost;
 }
 
 void record_failure(const CampaignFolder& folder, const CampaignRun& run, const std::string& reason) {

@@ -31,6 +31,13 @@ struct RunStatus {
 /// Throws InputError where the run's folder holds one of another case: the campaign or its base has changed since.
 RunStatus status_of(const CampaignFolder& folder, const CampaignConfig& campaign, const CampaignRun& run);
 
+/// What a finished run has cost.
+struct RunCost {
+  double core_seconds = 0.0;
+  double bytes = 0.0;  ///< on the disk
+};
+RunCost cost_of(const CampaignFolder& folder, const CampaignRun& run);
+
 /// Keeps the reason why a run failed, so that it is not tried again; or forgets it.
 void record_failure(const CampaignFolder& folder, const CampaignRun& run, const std::string& reason);
 void forget_failure(const CampaignFolder& folder, const CampaignRun& run);

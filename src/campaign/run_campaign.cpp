@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <deque>
+#include <thread>
 
 #include "campaign/results_table.hpp"
 #include "core/errors.hpp"
@@ -18,8 +19,9 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds patience(500);
 // The table is written anew at most so often, and at the end.
 constexpr std::chrono::seconds between_tables(2);
-// A run that another process still holds, a left-over of a killed campaign, is tried again that often.
-constexpr int most_tries = 20;
+// A run that another process still holds, a left-over of a killed campaign that is about to stop, is tried that often.
+constexpr int most_tries = 60;
+constexpr std::chrono::milliseconds between_tries(500);
 
 void make_folder(const fs::path& path) {
   std::error_code error;
@@ -97,18 +99,20 @@ class Session {
     --running_;
     ++tries_[end.run];
     const bool was_resumed = status_[end.run].can_resume;
+    const std::string reason = reason_of(options_.folder, run, end.exit_code);
+    const bool is_held = reason.find("another run writes here") != std::string::npos;
     status_[end.run] = status_of(options_.folder, campaign_, run);
     if (status_[end.run].state == RunState::Done) {
       seconds_ += std::chrono::duration<double>(Clock::now() - started_[end.run]).count();
       ++timed_;
     } else if (end.exit_code == static_cast<int>(ExitCode::Interrupted)) {
       if (!is_stopping) waiting_.push_back(end.run);
-    } else if (const std::string reason = reason_of(options_.folder, run, end.exit_code);
-               (reason.find("another run writes here") != std::string::npos || was_resumed) &&
-               tries_[end.run] < most_tries) {
-      // A left-over of a killed campaign still stops, or a checkpoint is of no use: once more, the latter from the
-      // start.
-      if (was_resumed) fs::remove(options_.folder.run(run) / "checkpoint.h5"), status_[end.run].can_resume = false;
+    } else if (was_resumed && !is_held) {  // its checkpoint may be of no use: once more, from the start
+      fs::remove(options_.folder.run(run) / "checkpoint.h5");
+      status_[end.run].can_resume = false;
+      waiting_.push_back(end.run);
+    } else if (is_held && tries_[end.run] < most_tries) {
+      std::this_thread::sleep_for(between_tries);
       waiting_.push_back(end.run);
     } else {
       record_failure(options_.folder, run, reason);

@@ -79,7 +79,8 @@ TEST_F(CampaignRuns, AKilledOneGoesOnAndComesToTheSameResults) {
 }
 
 TEST_F(CampaignRuns, AnInterruptedOneStopsItsRuns) {
-  write("study.campaign.toml", campaign("[\"25 m/s\"]", "\"mesh.element_size\" = \"0.1 mm\"\n\"mesh.contact_element_size\" = \"0.1 mm\"\n"));
+  write("study.campaign.toml",
+        campaign("[\"25 m/s\"]", "\"mesh.element_size\" = \"0.1 mm\"\n\"mesh.contact_element_size\" = \"0.1 mm\"\n"));
   const Started started = start({"campaign", "study.campaign.toml", "--out", "c", "--jobs", "2"});
   ASSERT_TRUE(wait_for(folder / "c/runs/speed_25mps-seed_1/effective.toml", started));
   ::kill(started.pid, SIGINT);
@@ -147,6 +148,11 @@ TEST_F(CampaignRuns, ThePlanShowsRunsTimeAndMemory) {
   EXPECT_THAT(plan.out, HasSubstr("speed_15mps-seed_1"));
   EXPECT_THAT(plan.out, HasSubstr("4 runs, 0 done"));
   EXPECT_FALSE(fs::exists(folder / "out"));
+  EXPECT_THAT(run({"campaign", "plan", "study.campaign.toml", "--scale"}).err, HasSubstr("no run is done yet"));
+  ASSERT_EQ(run_campaign().code, 0);
+  const Ended scaled = run({"campaign", "plan", "study.campaign.toml", "--scale", "--out", "c"});
+  EXPECT_THAT(scaled.out, HasSubstr("4 runs, 4 done"));
+  EXPECT_THAT(scaled.out, HasSubstr("10,000 such runs: "));
 }
 
 }  // namespace
