@@ -103,9 +103,11 @@ double equalising_ratio(int resolution) {
   return std::round(1e3 * shared_slip_factor(resolutions.back()) / shared_slip_factor(resolution)) / 1e3;
 }
 
-void compare_equalised(Evidence& evidence, Study& runs, const CrushingStudy& study, const Ensemble& fine,
-                       double speed) {
-  for (const int resolution : equalised_resolutions) {
+// The restitutions go to a series each.
+void compare_equalised(Evidence& evidence, Study& runs, const CrushingStudy& study, const Ensemble& fine, double speed,
+                       std::span<PlotSeries> series) {
+  for (std::size_t i = 0; i < equalised_resolutions.size(); ++i) {
+    const int resolution = equalised_resolutions[i];
     const double ratio = equalising_ratio(resolution);
     const Ensemble coarse = ensemble(runs, study, {resolution, speed, ratio});
     for (const Quantity& quantity : quantities) {
@@ -115,6 +117,8 @@ void compare_equalised(Evidence& evidence, Study& runs, const CrushingStudy& stu
           mean(values(coarse, quantity.field)), finest, tolerance(finest),
           "10 %, or 1 % of the whole; the crushed zone has the mode II energy of the finest mesh");
     }
+    series[i].x.push_back(speed);
+    series[i].y.push_back(mean(values(coarse, &GranuleOutcome::restitution)));
   }
 }
 
@@ -131,7 +135,11 @@ void show_contact_crushing(Evidence& evidence, const CrushingStudy& study) {
                                       1e3 * study.granule.diameter),
                  .x_label = "speed [m/s]",
                  .y_label = "restitution [-]"};
-  for (const int resolution : resolutions) plot.series.push_back({fmt::format("{} elements", resolution)});
+  for (const int resolution : resolutions)
+    plot.series.push_back({fmt::format("{} element{}", resolution, resolution == 1 ? "" : "s")});
+  for (const int resolution : equalised_resolutions)
+    plot.series.push_back({.name = fmt::format("{}, mode II ratio {}", resolution, equalising_ratio(resolution)),
+                           .style = PlotSeries::Style::Points});
   for (const double speed : speeds) {
     std::array<Ensemble, resolutions.size()> by_resolution;
     for (std::size_t r = 0; r < resolutions.size(); ++r) {
@@ -148,7 +156,8 @@ void show_contact_crushing(Evidence& evidence, const CrushingStudy& study) {
     }
     compare(evidence, speed, by_resolution);
     if (std::find(equalised_speeds.begin(), equalised_speeds.end(), speed) != equalised_speeds.end())
-      compare_equalised(evidence, runs, study, by_resolution.back(), speed);
+      compare_equalised(evidence, runs, study, by_resolution.back(), speed,
+                        std::span(plot.series).subspan(resolutions.size()));
   }
   runs.tell_kept(evidence);
   evidence.curve(table);
