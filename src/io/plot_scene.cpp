@@ -147,16 +147,27 @@ void set_axis(vtkAxis* axis, const std::string& label, const Ticks& ticks) {
   axis->GetGridPen()->SetWidth(1.0F * enlargement);
 }
 
-// The corner with the fewest points of the curves, so that the legend hides little.
-void place_legend(vtkChartLegend* legend, const PlotInput& input, const Ticks& x, const Ticks& y) {
+// How many points of the curves lie in each corner: top left, top right, bottom left, bottom right.
+std::array<int, 4> points_in_corners(const PlotInput& input, const Ticks& x, const Ticks& y) {
   constexpr double width = 0.4, height = 0.25;  // of a corner, over the page
-  std::array<int, 4> points{};                  // top left, top right, bottom left, bottom right
+  std::array<int, 4> points{};
   for (const PlotSeries& series : input.series)
     for (std::size_t i = 0; i < series.x.size(); ++i) {
       const double right = (series.x[i] - x.low) / (x.high - x.low), up = (series.y[i] - y.low) / (y.high - y.low);
       const bool in_column = right < width || right > 1.0 - width, in_row = up < height || up > 1.0 - height;
       if (in_column && in_row) ++points[(right > 0.5 ? 1 : 0) + (up < 0.5 ? 2 : 0)];
     }
+  return points;
+}
+
+// The corner with the fewest points, so that the legend hides little. Where none is free, the axis grows to make room.
+void place_legend(vtkChartLegend* legend, const PlotInput& input, const Ticks& x, Ticks& y) {
+  constexpr double room = 0.35;  // over the height of the axis
+  std::array<int, 4> points = points_in_corners(input, x, y);
+  if (input.series.size() > 1 && *std::min_element(points.begin(), points.end()) > 0) {
+    y.high += room * (y.high - y.low);
+    points = points_in_corners(input, x, y);
+  }
   const auto corner = std::min_element(points.begin(), points.end()) - points.begin();
   legend->SetHorizontalAlignment(corner % 2 == 0 ? vtkChartLegend::LEFT : vtkChartLegend::RIGHT);
   legend->SetVerticalAlignment(corner < 2 ? vtkChartLegend::TOP : vtkChartLegend::BOTTOM);
@@ -194,10 +205,10 @@ std::string png_of_plot(const PlotInput& given) {
     return ticks;
   };
   const Ticks x = ticks_of(input.log_x, &PlotSeries::x);
-  const Ticks y = ticks_of(input.log_y, &PlotSeries::y);
+  Ticks y = ticks_of(input.log_y, &PlotSeries::y);
+  place_legend(chart->GetLegend(), input, x, y);
   set_axis(chart->GetAxis(vtkAxis::BOTTOM), input.x_label, x);
   set_axis(chart->GetAxis(vtkAxis::LEFT), input.y_label, y);
-  place_legend(chart->GetLegend(), input, x, y);
   vtkNew<vtkContextActor> actor;
   actor->GetScene()->AddItem(chart);
   vtkNew<vtkRenderer> page;

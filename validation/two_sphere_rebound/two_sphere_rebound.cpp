@@ -3,7 +3,7 @@
 // included. Both are deformable, so this is the general contact of fragments, over the whole range from sticking to
 // gross sliding, R omega = 5 mu V_n.
 //
-// Out of tolerance: near psi1 = 1 the spin is 10 to 17 % too large, at 8 it is 9 % too small. Not by the step (safety
+// Out of tolerance: near psi1 = 1 the spin is 10 to 15 % too large, at 8 it is 9 % too small. Not by the step (safety
 // 0.8 and 0.3: 0.98 and 0.96 at psi1 = 1), the sweeps (30 instead of up to 10: 0.96) or the mesh (6 elements: 0.99);
 // the table has 0.82. The cause is not known; on the wall the same theory is met within 8 %.
 #include <fmt/format.h>
