@@ -53,6 +53,18 @@ constexpr std::array<Quantity, 8> quantities{{{"chipping", &GranuleOutcome::chip
                                               {"friction", &GranuleOutcome::friction},
                                               {"closure", &GranuleOutcome::closure}}};
 
+/// What the plot shows, by its change: of what is nearly nothing an elasticity says little.
+struct Drawn {
+  const char* name;
+  std::size_t column;  // among the quantities, behind which the restitution at 12 m/s comes
+};
+constexpr std::array<Drawn, 6> drawn_quantities{{{"chipping", 0},
+                                                 {"largest", 2},
+                                                 {"restitution", 3},
+                                                 {"cohesion", 5},
+                                                 {"friction", 6},
+                                                 {"restitution at 12 m/s", quantities.size()}}};
+
 GranuleCase alumina(double speed, int seed) {
   return {.preset = "gamma_alumina",
           .diameter = 1.09e-3,
@@ -123,16 +135,17 @@ void show_sensitivity(Evidence& evidence) {
               evidence.keeps_runs());
   std::vector<Column> table{{"parameter", {}}};
   std::string text = "| parameter", rule = "\n|---", base = "| at the base";
-  PlotInput plot{.title = "Alumina at 23 m/s: elasticities",
-                 .x_label = "parameter (numbers of curve.csv)",
-                 .y_label = "d ln q/d ln p [-]"};
+  PlotInput plot{.title = "Alumina at 23 m/s: what the parameters change",
+                 .x_label = "parameter, in the order of elasticities.md",
+                 .y_label = "dq/d ln p [-]"};
   for (const Quantity& quantity : quantities) {
     text += fmt::format(" | {}", quantity.name);
     rule += "|---";
     table.push_back({fmt::format("{} [-]", quantity.name), {}});
-    plot.series.push_back({.name = quantity.name, .style = PlotSeries::Style::Points});
   }
   table.push_back({"restitution at 12 m/s [-]", {}});
+  for (const Drawn& drawn : drawn_quantities)
+    plot.series.push_back({.name = drawn.name, .style = PlotSeries::Style::Points});
   text += " | restitution at 12 m/s |" + rule + "|---|\n";
   for (std::size_t p = 0; p < parameters().size(); ++p) {
     std::vector<Elasticity> row;
@@ -144,11 +157,10 @@ void show_sensitivity(Evidence& evidence) {
     }
     text += markdown_row(parameters()[p].name, row);
     table[0].values.push_back(static_cast<double>(p));
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      table[i + 1].values.push_back(row[i].value);
-      if (i >= plot.series.size()) continue;
+    for (std::size_t i = 0; i < row.size(); ++i) table[i + 1].values.push_back(row[i].value);
+    for (std::size_t i = 0; i < drawn_quantities.size(); ++i) {
       plot.series[i].x.push_back(static_cast<double>(p));
-      plot.series[i].y.push_back(row[i].value);
+      plot.series[i].y.push_back(row[drawn_quantities[i].column].change());
     }
     judge(evidence, parameters()[p], row);
   }
