@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "config/load_config.hpp"
 #include "core/errors.hpp"
 
 namespace knap {
@@ -110,6 +111,19 @@ TEST(Campaign, MistakesAreToldWithPlaceAndRemedy) {
   EXPECT_THAT(complaint(std::string(speeds) + "vales = [2]\n"), HasSubstr("has no key \"vales\" (did you mean"));
   EXPECT_THAT(complaint(std::string(speeds) + "[latin_hypercube]\nsamples = 3\n"), HasSubstr("needs a [[sample]]"));
   EXPECT_THROW(campaign_from_text("[[axis]]\nkey = \"a.b\"\nvalues = [1]\n", "c.toml"), InputError);
+}
+
+TEST(Campaign, EveryRunOfEveryShippedOneLoads) {
+  int runs = 0;
+  for (const auto& file : std::filesystem::directory_iterator(KNAP_SOURCE_DIR "/cases")) {
+    if (file.path().stem().extension() != ".campaign") continue;
+    const CampaignConfig campaign = load_campaign(file.path());
+    for (const CampaignRun& run : campaign_runs(campaign)) {
+      EXPECT_NO_THROW(load_config(campaign.base, overrides_of(campaign, run))) << file.path() << " " << run.name;
+      ++runs;
+    }
+  }
+  EXPECT_GE(runs, 8);
 }
 
 TEST(Campaign, TooManyRunsAreRefused) {

@@ -152,7 +152,7 @@ TEST(LoadConfig, TheMeshFileIsFoundFromTheCaseFolder) {
 TEST(LoadConfig, EveryShippedCaseLoads) {
   int cases = 0;
   for (const auto& file : std::filesystem::directory_iterator(KNAP_SOURCE_DIR "/cases")) {
-    if (file.path().extension() != ".toml") continue;
+    if (file.path().extension() != ".toml" || file.path().stem().extension() == ".campaign") continue;
     RunConfig config;
     ASSERT_NO_THROW(config = load_config(file.path())) << file.path();
     EXPECT_EQ(config_of(effective_toml(config)), config) << file.path();
