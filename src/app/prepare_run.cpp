@@ -51,12 +51,13 @@ void log_mesh(const MeshQuality& quality, RunLog& log) {
                        quality.num_vertices, quality.mean_shape, quality.min_shape));
 }
 
-SimulationOptions options_of(const RunConfig& config, std::span<const ParticleMesh> particles) {
+SimulationOptions options_of(const RunConfig& config, std::span<const ParticleMesh> particles,
+                             std::span<const TetMesh> meshes) {
   SimulationOptions options = simulation_options(config);
   for (std::size_t i = 0; i < particles.size(); ++i)
     if (auto& fracture = options.particles[i].fracture)
       fracture->law.kappa = mode_ii_ratio(config.particles[i], particles[i]);
-  options.tools = tool_options(config, meshes_of(particles), initial_gap(particles.front().contact_element_size));
+  options.tools = tool_options(config, meshes, initial_gap(particles.front().contact_element_size));
   return options;
 }
 
@@ -79,7 +80,7 @@ PreparedRun prepare_run(const RunConfig& config, const std::string& name, RunLog
   const std::vector<TetMesh> meshes = meshes_of(particles);
   const MeshQuality quality = measure_quality(merged(meshes));
   log_mesh(quality, log);
-  Simulation s = make_simulation(options_of(config, particles), meshes);
+  Simulation s = make_simulation(options_of(config, particles, meshes), meshes);
   const bool allow_unresolved = config.particles[0].fracture.allow_unresolved;
   RunIdentity identity{
       .case_name = name, .card = checked_card(config, particles.front(), s, allow_unresolved, log), .quality = quality};
@@ -95,7 +96,7 @@ PreparedRun prepare_run(RestedPiece piece, const RunConfig& config, const std::s
   const ParticleMesh particle = particle_on_plane(std::move(piece.mesh));
   piece.mesh = particle.mesh;
   log_mesh(particle.quality, log);
-  Simulation s = make_simulation(options_of(config, std::span(&particle, 1)), piece);
+  Simulation s = make_simulation(options_of(config, std::span(&particle, 1), std::span(&particle.mesh, 1)), piece);
   RunIdentity identity{.case_name = name,
                        .card = checked_card(config, particle, s, true, log),
                        .quality = particle.quality,
