@@ -5,24 +5,29 @@
 #include <stdexcept>
 
 #include "core/errors.hpp"
-#include "io/drawing_process.hpp"
 #include "io/file_output.hpp"
-#include "io/plot_scene.hpp"
+#include "io/plot_drawing.hpp"
 
 namespace knap {
 namespace {
+
+namespace fs = std::filesystem;
 
 void check_input(const PlotInput& input) {
   const auto finite = [](double value) { return std::isfinite(value); };
   const auto positive = [](double value) { return value > 0.0; };
   bool has_points = false;
   for (const PlotSeries& series : input.series) {
-    if (series.x.size() != series.y.size()) throw std::invalid_argument("plot: a series has unequal lengths");
-    if (!std::all_of(series.x.begin(), series.x.end(), finite) ||
-        !std::all_of(series.y.begin(), series.y.end(), finite))
-      throw RuntimeFailure("plot: a value is not a finite number");
-    if ((input.log_x && !std::all_of(series.x.begin(), series.x.end(), positive)) ||
-        (input.log_y && !std::all_of(series.y.begin(), series.y.end(), positive)))
+    if (series.x.size() != series.y.size() || series.low.size() != series.high.size() ||
+        (!series.low.empty() && series.low.size() != series.y.size()))
+      throw std::invalid_argument("plot: a series has unequal lengths");
+    for (const auto* values : {&series.x, &series.y, &series.low, &series.high})
+      if (!std::all_of(values->begin(), values->end(), finite))
+        throw RuntimeFailure("plot: a value is not a finite number");
+    for (const auto* values : {&series.y, &series.low, &series.high})
+      if (input.log_y && !std::all_of(values->begin(), values->end(), positive))
+        throw RuntimeFailure("plot: a value on a logarithmic axis is not above 0");
+    if (input.log_x && !std::all_of(series.x.begin(), series.x.end(), positive))
       throw RuntimeFailure("plot: a value on a logarithmic axis is not above 0");
     has_points = has_points || !series.x.empty();
   }
@@ -31,9 +36,14 @@ void check_input(const PlotInput& input) {
 
 }  // namespace
 
-void draw_plot(const std::filesystem::path& png, const PlotInput& input) {
+void draw_plot(const fs::path& png, const PlotInput& input) {
   check_input(input);
-  write_text_atomically(png, png_drawn([&] { return png_of_plot(input); }, input.timeout));
+  write_text_atomically(png, png_of_plot(input));
+}
+
+void draw_plot_twice(const fs::path& stem, const PlotInput& input) {
+  draw_plot(stem.string() + ".png", input);
+  write_text_atomically(stem.string() + ".svg", svg_of_plot(input));
 }
 
 }  // namespace knap

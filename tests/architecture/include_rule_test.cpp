@@ -40,6 +40,8 @@ const std::vector<Fence>& fences() {
       {"CGAL", std::regex{R"(^\s*#\s*include\s*[<"]CGAL/)"},
        std::regex{R"((meshing|src/analysis|solvers/contact)/.*)"}},
       {"VTK", std::regex{R"(^\s*#\s*include\s*[<"]vtk)"}, std::regex{R"(src/io/.*)"}},
+      {"Cairo", std::regex{R"(^\s*#\s*include\s*[<"]cairo)"}, std::regex{R"(src/io/.*)"}},
+      {"NLopt", std::regex{R"(^\s*#\s*include\s*[<"]nlopt)"}, std::regex{R"(src/analysis/.*\.cpp)"}},
       {"HDF5", std::regex{R"(^\s*#\s*include\s*[<"](hdf5|H5))"}, std::regex{R"(src/io/.*)"}},
       {"toml", std::regex{R"(^\s*#\s*include\s*[<"]toml)"}, std::regex{R"(src/config/.*\.cpp)"}},
       {"CHOLMOD", std::regex{R"(^\s*#\s*include\s*[<"].*[Cc]holmod)"},

@@ -71,5 +71,25 @@ TEST_F(Plot, WhatCannotBeDrawnIsRefused) {
   EXPECT_EQ(num_files(), 0u);
 }
 
+TEST_F(Plot, AlsoAsSvgWithErrorBarsAndMarks) {
+  PlotSeries measured{
+      .name = "measured", .x = {1.0, 2.0, 4.0}, .y = {1.0, 3.0, 9.0}, .style = PlotSeries::Style::Points};
+  draw_plot_twice(folder / "plot", {.series = {measured}});
+  const int without = blue_pixels(folder / "plot.png");
+  const std::string bare = content(folder / "plot.svg");
+  EXPECT_NE(bare.find("<svg"), std::string::npos);
+  EXPECT_EQ(bare.find("<text"), std::string::npos);  // outlines: no font is needed to see it
+  measured.low = {0.5, 2.0, 7.0}, measured.high = {2.0, 4.0, 9.0};
+  draw_plot_twice(folder / "plot", {.series = {measured}});
+  EXPECT_GT(blue_pixels(folder / "plot.png"), without + 100);
+  const std::string bars = content(folder / "plot.svg");
+  draw_plot_twice(folder / "plot", {.series = {measured}, .marks = {{3.0, "floor"}}});
+  EXPECT_GT(content(folder / "plot.svg").size(), bars.size());
+  measured.low.pop_back();
+  EXPECT_THROW(draw_plot(folder / "bad.png", {.series = {measured}}), std::invalid_argument);
+  measured.low = {0.0, 2.0, 7.0};
+  EXPECT_THROW(draw_plot(folder / "bad.png", {.series = {measured}, .log_y = true}), RuntimeFailure);
+}
+
 }  // namespace
 }  // namespace knap
