@@ -1,0 +1,39 @@
+#include "analysis/population_balance.hpp"
+
+#include <cmath>
+
+namespace knap {
+
+double breakage_distribution(double z, double q, double r) {
+  if (z <= 0.0) return 0.0;
+  if (z >= 1.0) return 1.0;
+  const auto step = [r](double at) { return 1.0 + std::tanh((at - r) / r); };
+  return std::pow(z, q) * step(z) / step(1.0);
+}
+
+Fit fit_breakage_distribution(std::span<const double> z, std::span<const double> finer) {
+  return least_squares_fit(
+      {{"q", "-", 0.01, 10.0, true}, {"r", "-", 0.02, 20.0, true}},
+      [&](std::span<const double> p, std::size_t i) { return breakage_distribution(z[i], p[0], p[1]); }, finer);
+}
+
+Eigen::MatrixXd breakage_matrix(const SizeClasses& classes, const std::function<double(double z)>& distribution) {
+  const auto n = static_cast<Eigen::Index>(classes.size());
+  Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double parent = classes.edges[static_cast<std::size_t>(j)];
+    const auto finer = [&](Eigen::Index i) {  // than the upper edge of class i; nothing is finer than the pan
+      return i == j ? 1.0 : i < n ? distribution(classes.edges[static_cast<std::size_t>(i)] / parent) : 0.0;
+    };
+    for (Eigen::Index i = j; i < n; ++i) matrix(i, j) = finer(i) - finer(i + 1);
+  }
+  return matrix;
+}
+
+Eigen::VectorXd ground(const Eigen::VectorXd& masses, const Eigen::VectorXd& selection,
+                       const Eigen::MatrixXd& breakage) {
+  const Eigen::VectorXd selected = selection.cwiseProduct(masses);
+  return masses - selected + breakage * selected;
+}
+
+}  // namespace knap
