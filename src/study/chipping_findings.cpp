@@ -1,0 +1,168 @@
+#include "study/chipping_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "analysis/chipping_law.hpp"
+#include "study/summary_table.hpp"
+
+namespace knap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::array classes{"intact", "chipped", "split", "fragmented"};
+
+// What most of the runs are; of two equally many the milder.
+std::string class_of(const Study& study, const Condition& condition) {
+  std::map<std::string, int> counts;
+  for (const std::size_t i : condition.runs) ++counts[study.runs[i].breakage_class];
+  std::string most = classes[0];
+  for (const char* one : classes)
+    if (counts[one] > counts[most]) most = one;
+  return most;
+}
+
+void add_class_map(Findings& findings, const Study& study, const Series& series, const std::string& suffix,
+                   Json& json) {
+  PlotInput plot{.title = titled("classes", series),
+                 .x_label = "impact speed [m/s]",
+                 .y_label = "impact angle from the wall [deg]"};
+  for (const char* one : classes) {
+    PlotSeries points{.name = one, .style = PlotSeries::Style::Points};
+    for (const Condition& condition : series.conditions)
+      if (class_of(study, condition) == one)
+        points.x.push_back(condition.speed), points.y.push_back(condition.angle / degree);
+    plot.series.push_back(points);
+  }
+  for (const Condition& condition : series.conditions) {
+    std::map<std::string, int> counts;
+    for (const std::size_t i : condition.runs) ++counts[study.runs[i].breakage_class];
+    Json one{
+        {"angle_deg", condition.angle / degree}, {"speed", condition.speed}, {"class", class_of(study, condition)}};
+    for (const char* name : classes) one[name] = counts[name];
+    json["class_map"].push_back(one);
+  }
+  PageSection section{.title = titled("Class map", series)};
+  section.paragraphs.push_back(
+      "What most runs of a speed and angle are. Intact: less than 0.1 % lost; chipped: one piece holds at least 75 %; "
+      "split: two to four big pieces together hold at least 75 %; fragmented: anything more.");
+  add_figure(findings, section, "class_map" + suffix, plot, "");
+  findings.sections.push_back(std::move(section));
+}
+
+struct Part {
+  std::string name;  // of what the law is over
+  std::vector<Chipping> runs{};
+};
+
+// Conditions that mostly chip, over the speed at the steepest angle and over the normal velocity at all.
+std::vector<Part> parts_of(const Study& study, const Series& series) {
+  double steepest = 0.0;
+  std::set<double> angles;
+  for (const Condition& condition : series.conditions) {
+    steepest = std::max(steepest, condition.angle);
+    angles.insert(condition.angle);
+  }
+  Part straight{fmt::format("speed at {:.3g}°", steepest / degree)}, normal{"normal velocity, all angles"};
+  for (const Condition& condition : series.conditions) {
+    if (class_of(study, condition) != "chipped") continue;
+    for (const double ratio : values_of(study, condition, [](const StudyRun& run) { return run.chipping_ratio(); })) {
+      if (condition.angle == steepest) straight.runs.push_back({condition.speed, ratio});
+      // Conditions of one normal velocity up to rounding are one speed.
+      normal.runs.push_back({std::round(1e4 * condition.speed * std::sin(condition.angle)) / 1e4, ratio});
+    }
+  }
+  std::vector<Part> parts{straight};
+  if (angles.size() > 1) parts.push_back(normal);
+  return parts;
+}
+
+void draw_law(Findings& findings, PageSection& section, const Part& part, const ChippingLaw& law, const Series& series,
+              const std::string& stem) {
+  std::map<double, std::vector<double>> by_speed;
+  for (const Chipping& run : part.runs) by_speed[run.speed].push_back(run.ratio);
+  PlotSeries points{.name = "runs", .style = PlotSeries::Style::Points, .colour = 6};
+  PlotSeries means{.name = "means", .style = PlotSeries::Style::Points, .colour = 0};
+  for (const auto& [speed, ratios] : by_speed) {
+    for (const double ratio : ratios)
+      if (ratio > 0.0) points.x.push_back(speed), points.y.push_back(ratio);
+    if (mean(ratios) > 0.0) means.x.push_back(speed), means.y.push_back(mean(ratios));
+  }
+  const auto line = [&](double exponent, const std::string& name, PlotSeries::Style style, std::size_t colour) {
+    const double middle = std::sqrt(law.slowest * law.fastest);
+    const double at_middle = law.factor * std::pow(middle, law.exponent);
+    PlotSeries curve{.name = name, .style = style, .colour = colour};
+    for (const double v : {law.slowest, law.fastest})
+      curve.x.push_back(v), curve.y.push_back(at_middle * std::pow(v / middle, exponent));
+    return curve;
+  };
+  PlotInput plot{.title = titled("chipping over " + part.name, series),
+                 .x_label = part.name + " [m/s]",
+                 .y_label = "chipping ratio [-]",
+                 .log_x = true,
+                 .log_y = true};
+  plot.series = {points, means,
+                 line(law.exponent, fmt::format("fit, {:.2f}", law.exponent), PlotSeries::Style::Line, 0),
+                 line(2.0, "published, 2", PlotSeries::Style::Dashes, 4),
+                 line(4.5, "published, 4.5", PlotSeries::Style::Dashes, 5)};
+  add_figure(findings, section, stem, plot, "The published laws are drawn through the middle of the fit.");
+}
+
+void add_laws(Findings& findings, const Study& study, const Series& series, const std::string& suffix, Json& json) {
+  PageSection section{.title = titled("Chipping law", series)};
+  section.paragraphs.push_back(
+      "Chipping ratio = C vⁿ, by the logarithms of the means at each speed where most runs are chipped: above the "
+      "threshold (0.1 % lost) and below splitting. The interval is 95 %, by bootstrap over runs.");
+  int number = 0;
+  for (const Part& part : parts_of(study, series)) {
+    ++number;
+    Json& one = json["chipping_law"].emplace_back(Json{{"over", part.name}});
+    try {
+      const ChippingLaw law = fit_chipping_law(part.runs);
+      one["exponent"] = law.exponent, one["interval"] = json_of(law.interval), one["factor"] = law.factor;
+      one["speeds"] = law.num_speeds, one["slowest"] = law.slowest, one["fastest"] = law.fastest;
+      std::string agreeing;
+      for (const PublishedExponent& published : published_exponents) {
+        const bool is_inside = law.interval.contains(published.exponent);
+        one["published"].push_back(
+            {{"exponent", published.exponent}, {"source", published.source}, {"within_interval", is_inside}});
+        if (is_inside)
+          agreeing += fmt::format("{}{:g} ({})", agreeing.empty() ? "" : ", ", published.exponent, published.source);
+      }
+      section.rows.push_back(
+          {"exponent over " + part.name, fmt::format("{:.3g}", law.exponent), shown(law.interval),
+           fmt::format("{} speeds, {:.3g} to {:.3g} m/s; within it of the published: {}", law.num_speeds, law.slowest,
+                       law.fastest, agreeing.empty() ? "none" : agreeing)});
+      findings.verdicts.push_back(
+          fmt::format("{}: exponent of the {} {}; of the published 2, 2.33, 2.44, 3.17, 4.5 within it: {}.",
+                      titled("Chipping law", series), part.name, shown(law.exponent, law.interval),
+                      agreeing.empty() ? "none" : agreeing));
+      draw_law(findings, section, part, law, series,
+               fmt::format("chipping_law{}{}", suffix, number > 1 ? "_normal" : ""));
+    } catch (const std::invalid_argument& reason) {
+      one["not_fitted"] = reason.what();
+      section.rows.push_back({"exponent over " + part.name, "not fitted", "", reason.what()});
+    }
+  }
+  findings.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+void add_chipping_findings(Findings& findings, const Study& study) {
+  const std::vector<Series> all = series_of(study);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].conditions.front().speed <= 0.0) continue;
+    Json json{{"series", all[k].name}};
+    const std::string suffix = suffix_of(k, all.size());
+    add_class_map(findings, study, all[k], suffix, json);
+    add_laws(findings, study, all[k], suffix, json);
+    findings.json["chipping"].push_back(json);
+  }
+}
+
+}  // namespace knap

@@ -1,0 +1,81 @@
+#include "study/findings.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "io/file_output.hpp"
+
+namespace knap {
+
+using Json = nlohmann::ordered_json;
+
+void add_figure(Findings& findings, PageSection& section, const std::string& stem, const PlotInput& plot,
+                const std::string& caption) {
+  bool has_points = false;
+  for (const PlotSeries& series : plot.series) has_points = has_points || !series.x.empty();
+  if (!has_points) return;
+  draw_plot_twice(findings.folder / stem, plot);
+  section.figures.push_back({plot.title, findings.folder / (stem + ".svg"), caption});
+}
+
+std::string suffix_of(std::size_t series, std::size_t num_series) {
+  return num_series < 2 ? "" : fmt::format("-{}", series + 1);
+}
+
+std::string titled(const std::string& title, const Series& series) {
+  return series.name.empty() ? title : fmt::format("{} ({})", title, series.name);
+}
+
+std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "not resolved"; }
+std::string shown(const Interval& interval) {
+  return std::isfinite(interval.low) ? fmt::format("[{:.3g}, {:.3g}]", interval.low, interval.high) : "";
+}
+std::string shown(double value, const Interval& interval) {
+  const std::string ends = shown(interval);
+  return ends.empty() ? shown(value) : shown(value) + " " + ends;
+}
+
+Json json_of(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+Json json_of(const Interval& interval) { return {json_of(interval.low), json_of(interval.high)}; }
+
+Json json_of(const Fit& fit) {
+  Json json;
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i)
+    json[fit.parameters[i].name] = {{"value", fit.values[i]},
+                                    {"standard_error", json_of(fit.errors[i])},
+                                    {"unit", fit.parameters[i].unit},
+                                    {"at_end_of_range", static_cast<bool>(fit.is_at_end[i])}};
+  Json covariance = nullptr;
+  if (fit.covariance.size() > 0) {
+    covariance = Json::array();
+    for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
+      covariance.push_back(Json::array());
+      for (Eigen::Index j = 0; j < fit.covariance.cols(); ++j) covariance.back().push_back(fit.covariance(i, j));
+    }
+  }
+  return {{"parameters", json}, {"covariance", covariance}, {"data", fit.num_data}};
+}
+
+void add_rows(PageSection& section, const std::string& law, const Fit& fit) {
+  for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
+    const FitParameter& p = fit.parameters[i];
+    const std::string unit = p.unit == "-" ? "" : " " + p.unit;
+    section.rows.push_back({law + ": " + p.name, fmt::format("{:.4g}{}", fit.values[i], unit),
+                            std::isfinite(fit.errors[i]) ? fmt::format("± {:.2g}", fit.errors[i]) : "",
+                            fit.is_at_end[i] ? "at the end of its range: the data leave it open" : ""});
+  }
+}
+
+void write_table(const std::filesystem::path& file, const std::vector<std::string>& columns,
+                 const std::vector<std::vector<double>>& rows) {
+  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i)
+      text += (i == 0 ? "" : ",") + (std::isfinite(row[i]) ? fmt::format("{}", row[i]) : std::string());
+    text += "\n";
+  }
+  write_text_atomically(file, text);
+}
+
+}  // namespace knap

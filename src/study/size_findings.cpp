@@ -1,0 +1,169 @@
+#include "study/size_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/size_fits.hpp"
+#include "study/summary_table.hpp"
+
+namespace knap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Sieves are told over the particle's diameter.
+constexpr double largest_sieve = 1.0, smallest_sieve = 0.02;
+
+std::vector<Condition> steepest_of(const Series& series) {
+  double steepest = 0.0;
+  for (const Condition& condition : series.conditions) steepest = std::max(steepest, condition.angle);
+  std::vector<Condition> list;
+  for (const Condition& condition : series.conditions)
+    if (condition.angle == steepest) list.push_back(condition);
+  return list;
+}
+
+// Of what is finer than most of the largest pieces and coarser than the floor.
+void fit_laws(const Study& study, const Condition& condition, const std::vector<double>& sieves,
+              const std::vector<double>& finer, double floor, PageSection& section, Json& json) {
+  double largest = 0.0;
+  for (const std::size_t i : condition.runs)
+    largest = std::max(largest, study.runs[i].sizes.back().sieve_size / study.runs[i].diameter);
+  const double diameter = study.runs[condition.runs.front()].diameter;
+  std::vector<double> sizes, fractions;
+  for (std::size_t i = 0; i < sieves.size(); ++i)
+    if (sieves[i] >= floor && sieves[i] < largest && finer[i] > 0.0)
+      sizes.push_back(sieves[i] * diameter), fractions.push_back(finer[i]);
+  if (sizes.size() < 4) return;
+  const Fit rosin = fit_rosin_rammler(sizes, fractions), gates = fit_gates_gaudin_schuhmann(sizes, fractions);
+  json["rosin_rammler"] = json_of(rosin), json["gates_gaudin_schuhmann"] = json_of(gates);
+  section.rows.push_back({fmt::format("{:g} m/s: Rosin-Rammler n", condition.speed), shown(rosin.value("n")),
+                          fmt::format("± {}", shown(rosin.error("n"))),
+                          fmt::format("x63 = {:.3g} mm", 1e3 * rosin.value("x63"))});
+  section.rows.push_back({fmt::format("{:g} m/s: Gates-Gaudin-Schuhmann m", condition.speed), shown(gates.value("m")),
+                          fmt::format("± {}", shown(gates.error("m"))),
+                          fmt::format("k = {:.3g} mm", 1e3 * gates.value("k"))});
+}
+
+void add_distributions(Findings& findings, const Study& study, const Series& series, const std::string& suffix,
+                       Json& json) {
+  const std::vector<Condition> list = steepest_of(series);
+  const std::vector<double> sieves = sieve_series(largest_sieve, smallest_sieve);
+  PageSection section{.title = titled("Size distributions", series)};
+  section.paragraphs.push_back(fmt::format(
+      "Mass finer than a sieve, means over meshes and seeds at {:.3g}°. Below the resolution floor, the mean edge of "
+      "the "
+      "coarsest mesh, pieces are products of the mesh. The laws are fitted between the floor and the largest piece.",
+      list.front().angle / degree));
+  PlotInput plot{.title = titled("size distributions", series),
+                 .x_label = "size over the particle's diameter [-]",
+                 .y_label = "mass fraction finer [-]",
+                 .log_x = true,
+                 .log_y = true};
+  std::vector<std::vector<double>> rows;
+  double floor = 0.0;
+  for (const Condition& condition : list) {
+    floor = std::max(floor, resolution_floor(study, condition.runs));
+    const std::vector<double> finer = mean_passing(study, condition.runs, sieves);
+    PlotSeries curve{.name = fmt::format("{:g} m/s", condition.speed)};
+    for (std::size_t i = 0; i < sieves.size(); ++i) {
+      rows.push_back(
+          {condition.speed, sieves[i], finer[i], sieves[i] >= resolution_floor(study, condition.runs) ? 1.0 : 0.0});
+      if (finer[i] >= 1e-4) curve.x.push_back(sieves[i]), curve.y.push_back(finer[i]);
+    }
+    if (!curve.x.empty()) plot.series.push_back(curve);
+    Json& one = json["size_distributions"].emplace_back(Json{{"speed", condition.speed}});
+    fit_laws(study, condition, sieves, finer, resolution_floor(study, condition.runs), section, one);
+  }
+  constexpr std::size_t most_curves = 8;
+  if (plot.series.size() > most_curves)
+    plot.series.erase(plot.series.begin(), plot.series.end() - most_curves);  // the faster ones
+  plot.marks.push_back({floor, "resolution floor"});
+  json["resolution_floor_over_diameter"] = floor;
+  add_figure(findings, section, "size_distributions" + suffix, plot, "");
+  write_table(findings.folder / ("size_distributions" + suffix + ".csv"),
+              {"speed [m/s]", "size over diameter [-]", "finer [-]", "resolved [-]"}, rows);
+  findings.sections.push_back(std::move(section));
+}
+
+void add_over_speed(Findings& findings, const Study& study, const Series& series, const std::string& suffix) {
+  const std::vector<Condition> list = steepest_of(series);
+  const auto plot_of = [&](const std::vector<std::string>& names, const std::string& title,
+                           const std::string& y_label) {
+    PlotInput plot{.title = titled(title, series), .x_label = "impact speed [m/s]", .y_label = y_label};
+    for (const std::string& name : names) {
+      PlotSeries points{.name = name, .style = PlotSeries::Style::Points};
+      for (const Condition& condition : list) {
+        const Spread s = spread_of(study, condition, measure(name));
+        if (!std::isfinite(s.mean)) continue;
+        points.x.push_back(condition.speed), points.y.push_back(s.mean);
+        const bool has_interval = std::isfinite(s.interval.low);
+        points.low.push_back(has_interval ? s.interval.low : s.mean);
+        points.high.push_back(has_interval ? s.interval.high : s.mean);
+      }
+      std::replace(points.name.begin(), points.name.end(), '_', ' ');
+      if (!points.x.empty()) plot.series.push_back(points);
+    }
+    const std::size_t n = plot.series.size();
+    for (std::size_t i = 0; i < n; ++i)
+      plot.series.push_back({.x = plot.series[i].x, .y = plot.series[i].y, .colour = i});
+    return plot;
+  };
+  PageSection section{.title = titled("Fineness, pieces and shapes", series)};
+  std::string unresolved;
+  for (const int n : fineness_divisors) {
+    const std::string name = fmt::format("t{}", n);
+    bool is_resolved = false;
+    for (const Condition& condition : list)
+      is_resolved = is_resolved || spread_of(study, condition, measure(name)).count > 0;
+    if (!is_resolved) unresolved += (unresolved.empty() ? "" : ", ") + name;
+  }
+  section.paragraphs.push_back(
+      "t_n is the mass fraction finer than 1/n of the particle's diameter." +
+      (unresolved.empty() ? std::string() : " Not resolved by these meshes: " + unresolved + "."));
+  add_figure(findings, section, "fineness" + suffix,
+             plot_of({"t2", "t4", "t10", "t25", "t50", "t75"}, "fineness", "t_n [-]"), "");
+  add_figure(findings, section, "pieces" + suffix,
+             plot_of({"largest_mass_fraction", "second_mass_fraction", "unresolved_mass_fraction"},
+                     "the largest pieces", "mass over the particle's [-]"),
+             "");
+  add_figure(findings, section, "shapes" + suffix,
+             plot_of({"sphericity", "elongation", "flatness", "convexity"},
+                     "shapes of the resolved pieces but the largest, by mass", "[-], 1 = sphere, equant, convex"),
+             "");
+  findings.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+std::vector<double> mean_passing(const Study& study, const std::vector<std::size_t>& runs,
+                                 const std::vector<double>& sieves_over_diameter) {
+  std::vector<double> sum(sieves_over_diameter.size(), 0.0);
+  for (const std::size_t i : runs) {
+    std::vector<double> sieves = sieves_over_diameter;
+    for (double& sieve : sieves) sieve *= study.runs[i].diameter;
+    const std::vector<double> finer = passing(study.runs[i].sizes, sieves);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += finer[k] / static_cast<double>(runs.size());
+  }
+  return sum;
+}
+
+double resolution_floor(const Study& study, const std::vector<std::size_t>& runs) {
+  double floor = 0.0;
+  for (const std::size_t i : runs) floor = std::max(floor, study.runs[i].element_size / study.runs[i].diameter);
+  return floor;
+}
+
+void add_size_findings(Findings& findings, const Study& study) {
+  const std::vector<Series> all = series_of(study);
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Json json{{"series", all[k].name}};
+    add_distributions(findings, study, all[k], suffix_of(k, all.size()), json);
+    add_over_speed(findings, study, all[k], suffix_of(k, all.size()));
+    findings.json["sizes"].push_back(json);
+  }
+}
+
+}  // namespace knap

@@ -1,0 +1,219 @@
+#include "study/study_runs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <tuple>
+
+#include "analysis/size_fits.hpp"
+#include "config/load_config.hpp"
+#include "core/errors.hpp"
+#include "io/csv_line.hpp"
+#include "io/csv_table.hpp"
+
+namespace knap {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+constexpr std::array conditions_of_run{"impact.speed", "impact.angle", "impact.wall_friction"};
+
+bool starts_a_number(const std::string& cell) {
+  char* end = nullptr;
+  std::strtod(cell.c_str(), &end);
+  return !cell.empty() && end == cell.c_str() + cell.size();
+}
+
+// "impact.speed" of "impact.speed [m/s]".
+std::string key_of(const std::string& column) { return column.substr(0, column.find(' ')); }
+
+bool is_seed(const std::string& key) { return key.ends_with("seed"); }
+bool is_mesh(const std::string& key) { return key.starts_with("mesh.") || key.find(".mesh.") != std::string::npos; }
+
+std::string short_name(const std::string& key) { return key.substr(key.rfind('.') + 1); }
+
+// The keys that a campaign varies stand between `reason` and the first column of the reports.
+std::vector<std::size_t> varied_columns(const std::vector<std::string>& columns) {
+  std::vector<std::size_t> varied;
+  for (std::size_t i = 3; i < columns.size() && columns[i] != "stop_reason" && columns[i] != "version"; ++i)
+    varied.push_back(i);
+  return varied;
+}
+
+StudyTable table_of(const fs::path& folder) {
+  const fs::path file = folder / "results.csv";
+  if (!fs::exists(file))
+    throw InputError(fmt::format("{}: holds no results.csv: give the folder of a campaign", folder.string()));
+  std::ifstream text(file);
+  StudyTable table;
+  for (std::string line; std::getline(text, line);) {
+    std::vector<std::string> cells = csv_cells(line);
+    if (table.columns.empty())
+      table.columns = std::move(cells);
+    else if (cells.size() == table.columns.size())
+      table.rows.push_back(std::move(cells));
+    else
+      throw InputError(fmt::format("{}:{}: {} cells, the header has {}", file.string(), table.rows.size() + 2,
+                                   cells.size(), table.columns.size()));
+  }
+  if (table.columns.size() < 3 || table.columns[0] != "run" || table.columns[1] != "state")
+    throw InputError(fmt::format("{}: is not a campaign's table (run, state, reason, ...)", file.string()));
+  return table;
+}
+
+void add_label(std::string& label, const std::string& key, const std::string& column, const std::string& cell) {
+  const auto unit = column.find(" [");
+  label += fmt::format("{}{} = {}{}", label.empty() ? "" : ", ", short_name(key), cell,
+                       unit == std::string::npos ? "" : " " + column.substr(unit + 2, column.size() - unit - 3));
+}
+
+// Weighted by mass; the largest is what is left of the particle.
+ShapeMeans shapes_in(const fs::path& fragments) {
+  std::ifstream file(fragments);
+  std::string line;
+  std::getline(file, line);
+  const std::vector<std::string> header = csv_cells(line);
+  const auto column = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+  };
+  const std::array shape{column("sphericity [-]"), column("elongation [-]"), column("flatness [-]"),
+                         column("convexity [-]")};
+  const std::size_t mass = column("mass [kg]");
+  std::array<double, 4> sums{};
+  double total = 0.0;
+  std::getline(file, line);
+  while (std::getline(file, line)) {
+    if (line.empty() || line.back() != '1') continue;  // `resolved` is the last column
+    const std::vector<std::string> cells = csv_cells(line);
+    if (cells.size() != header.size()) continue;
+    const double weight = csv_number(cells[mass], fragments.string());
+    total += weight;
+    for (std::size_t k = 0; k < shape.size(); ++k) sums[k] += weight * csv_number(cells[shape[k]], fragments.string());
+  }
+  if (total == 0.0) return {nan, nan, nan, nan};
+  return {sums[0] / total, sums[1] / total, sums[2] / total, sums[3] / total};
+}
+
+std::vector<SizeRow> sizes_in(const fs::path& file) {
+  const CsvColumns columns = read_csv(file);
+  std::vector<SizeRow> rows;
+  for (std::size_t i = 0; i < columns.values[0].size(); ++i)
+    rows.push_back({columns.values[0][i], columns.values[1][i], static_cast<Index>(columns.values[2][i])});
+  return rows;
+}
+
+std::vector<ImpactRow> impacts_in(const fs::path& file) {
+  if (!fs::exists(file)) return {};
+  const CsvColumns columns = read_csv(file);
+  const auto &mass = columns.column("mass_before [kg]"), &energy = columns.column("incident_energy [J]"),
+             &chipping = columns.column("chipping_ratio [-]");
+  std::vector<ImpactRow> rows;
+  for (std::size_t i = 0; i < mass.size(); ++i) rows.push_back({chipping[i], energy[i] / mass[i]});
+  return rows;
+}
+
+void read_case(StudyRun& run) {
+  const RunConfig config = load_config(run.folder / "effective.toml");
+  if (!has_wall(config) || config.particles.size() != 1) return;
+  run.speed = config.impact.speed, run.angle = config.impact.angle, run.friction = config.impact.wall_friction;
+}
+
+StudyRun run_of(const fs::path& folder, const StudyTable& table, const std::vector<std::string>& cells, double sieve) {
+  StudyRun run{.name = cells[0], .folder = folder / "runs" / cells[0]};
+  for (const std::size_t i : varied_columns(table.columns)) {
+    const std::string key = key_of(table.columns[i]);
+    if (std::find(conditions_of_run.begin(), conditions_of_run.end(), key) != conditions_of_run.end()) continue;
+    add_label(is_seed(key) ? run.seed : is_mesh(key) ? run.mesh : run.series, key, table.columns[i], cells[i]);
+  }
+  for (std::size_t i = 3; i < cells.size(); ++i) {
+    if (table.columns[i] == "breakage.class") run.breakage_class = cells[i];
+    if (starts_a_number(cells[i])) run.numbers[table.columns[i]] = std::stod(cells[i]);
+  }
+  read_case(run);
+  run.diameter = run.number("sanity.diameter");
+  run.element_size = run.number("mesh.edge_mean");
+  run.impacts = impacts_in(run.folder / "impacts.csv");
+  const fs::path pieces = run.impacts.empty() ? run.folder : run.folder / fmt::format("impact_{}", run.impacts.size());
+  run.sizes = sizes_in(pieces / "size_distribution.csv");
+  run.shape = shapes_in(pieces / "fragments.csv");
+  const std::array sieves{sieve * run.diameter};
+  run.breakage_ratio = passing(run.sizes, sieves)[0];
+  return run;
+}
+
+// Columns that only some campaigns have are empty for the others.
+void add_table(StudyTable& all, const StudyTable& more, const std::string& prefix) {
+  std::vector<std::size_t> place;
+  for (const std::string& column : more.columns) {
+    const auto found = std::find(all.columns.begin(), all.columns.end(), column);
+    place.push_back(static_cast<std::size_t>(found - all.columns.begin()));
+    if (found == all.columns.end()) all.columns.push_back(column);
+  }
+  for (auto& row : all.rows) row.resize(all.columns.size());
+  for (const auto& row : more.rows) {
+    all.rows.emplace_back(all.columns.size());
+    for (std::size_t i = 0; i < row.size(); ++i) all.rows.back()[place[i]] = row[i];
+    all.rows.back()[0] = prefix + row[0];
+  }
+}
+
+}  // namespace
+
+double StudyRun::number(const std::string& column) const {
+  const auto found = numbers.find(column);
+  return found == numbers.end() ? nan : found->second;
+}
+
+Study read_study(std::span<const fs::path> folders, double sieve) {
+  Study study{.sieve_over_diameter = sieve};
+  for (const fs::path& folder : folders) {
+    const StudyTable table = table_of(folder);
+    const std::string prefix =
+        folders.size() > 1 ? fs::absolute(folder).lexically_normal().filename().string() + "/" : "";
+    add_table(study.table, table, prefix);
+    for (const auto& cells : table.rows) {
+      if (cells[1] == "failed") ++study.failed;
+      if (cells[1] == "waiting" || cells[1] == "running") ++study.waiting;
+      if (cells[1] != "done") continue;
+      study.runs.push_back(run_of(folder, table, cells, sieve));
+      study.runs.back().name = prefix + study.runs.back().name;
+    }
+  }
+  if (study.runs.empty()) throw InputError(fmt::format("{}: no run is done yet", folders.front().string()));
+  return study;
+}
+
+std::vector<Condition> conditions(const Study& study) {
+  std::map<std::tuple<std::string, double, double, double>, Condition> by_key;
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    const StudyRun& run = study.runs[i];
+    Condition& condition = by_key[{run.series, run.friction, run.angle, run.speed}];
+    condition.series = run.series;
+    condition.speed = run.speed, condition.angle = run.angle, condition.friction = run.friction;
+    condition.runs.push_back(i);
+  }
+  std::vector<Condition> list;
+  for (auto& [key, condition] : by_key) list.push_back(std::move(condition));
+  return list;
+}
+
+std::vector<Series> series_of(const Study& study) {
+  const std::vector<Condition> all = conditions(study);
+  std::set<double> frictions;
+  for (const Condition& condition : all) frictions.insert(condition.friction);
+  std::vector<Series> list;
+  for (const Condition& condition : all) {
+    std::string name = condition.series;
+    if (frictions.size() > 1) name += fmt::format("{}wall friction {:g}", name.empty() ? "" : ", ", condition.friction);
+    if (list.empty() || list.back().name != name) list.push_back({.name = name});
+    list.back().conditions.push_back(condition);
+  }
+  return list;
+}
+
+}  // namespace knap

@@ -1,0 +1,95 @@
+#include "study/write_study.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "io/file_output.hpp"
+#include "study/breakage_findings.hpp"
+#include "study/chipping_findings.hpp"
+#include "study/energy_findings.hpp"
+#include "study/findings.hpp"
+#include "study/size_findings.hpp"
+#include "study/summary_table.hpp"
+#include "study/velocity_findings.hpp"
+
+namespace knap {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+// The last frame of a run; empty if it wrote none.
+fs::path last_frame(const fs::path& run) {
+  fs::path last;
+  if (!fs::is_directory(run / "frames")) return last;
+  for (const auto& entry : fs::directory_iterator(run / "frames"))
+    if (entry.path().extension() == ".vtu" && (last.empty() || last < entry.path())) last = entry.path();
+  return last;
+}
+
+// Of each class the runs in the middle and at the ends of its range of lost mass, of those that can be shown.
+std::vector<PageRun> chosen_runs(const Study& study) {
+  std::map<std::string, std::vector<const StudyRun*>> by_class;
+  for (const StudyRun& run : study.runs)
+    if (fs::exists(run.folder / "picture.png") || !last_frame(run.folder).empty())
+      by_class[run.breakage_class].push_back(&run);
+  std::vector<PageRun> chosen;
+  for (const char* name : {"fragmented", "split", "chipped", "intact"}) {
+    auto& runs = by_class[name];
+    std::stable_sort(runs.begin(), runs.end(),
+                     [](const StudyRun* a, const StudyRun* b) { return a->chipping_ratio() > b->chipping_ratio(); });
+    std::vector<const StudyRun*> picked;
+    const std::size_t most = name == std::string("intact") ? 1 : 3;
+    for (std::size_t k = 0; k < std::min(most, runs.size()); ++k)
+      picked.push_back(runs[most < 2 ? 0
+                                     : k * (runs.size() - 1) /
+                                           (std::min(most, runs.size()) > 1 ? std::min(most, runs.size()) - 1 : 1)]);
+    for (const StudyRun* run : picked)
+      chosen.push_back({.name = run->name,
+                        .caption = fmt::format("{:g} m/s, {:.3g}°: {}, {:.3g} % lost", run->speed, run->angle / degree,
+                                               run->breakage_class, 100.0 * run->chipping_ratio()),
+                        .picture = run->folder / "picture.png",
+                        .frame = last_frame(run->folder),
+                        .has_wall = run->speed > 0.0});
+  }
+  return chosen;
+}
+
+std::string counts(const Study& study) {
+  return fmt::format("{} runs done, {} failed, {} not done", study.runs.size(), study.failed, study.waiting);
+}
+
+}  // namespace
+
+StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out, const fs::path& page,
+                         const StudyOptions& options) {
+  const Study study = read_study(folders, options.sieve);
+  fs::create_directories(out);
+  Findings findings{.folder = out};
+  findings.json = {
+      {"title", options.title},
+      {"runs", {{"done", study.runs.size()}, {"failed", study.failed}, {"not_done", study.waiting}}},
+      {"sieve_over_diameter", options.sieve},
+      {"units",
+       "SI; angles in degrees from the plane of the wall where a name says deg; intervals are 95 %, bootstrap"}};
+  add_summary(findings, study);
+  add_velocity_findings(findings, study, options.normal_speeds);
+  add_chipping_findings(findings, study);
+  add_size_findings(findings, study);
+  add_breakage_findings(findings, study, options.broken);
+  add_energy_findings(findings, study);
+  findings.json["verdicts"] = findings.verdicts;
+  write_text_atomically(out / "analysis.json", findings.json.dump(2) + "\n");
+  write_campaign_page(page, {.title = options.title,
+                             .subtitle = counts(study),
+                             .verdicts = findings.verdicts,
+                             .sections = findings.sections,
+                             .runs_table = {.columns = study.table.columns, .rows = study.table.rows},
+                             .runs = chosen_runs(study)});
+  return {study.runs.size(), study.failed, study.waiting, findings.verdicts};
+}
+
+}  // namespace knap

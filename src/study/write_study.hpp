@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace knap {
+
+struct StudyOptions {
+  std::string title{};
+  double sieve =
+      0.8408964152537145;  ///< of the breakage ratio, over the diameter: the next finer of the series 2^(1/4)
+  double broken = 0.1;     ///< mass loss from which a particle is broken (Tavares & King 1998)
+  std::vector<double> normal_speeds{8.0, 14.0};  ///< at which the tangential effect is told [m/s]
+};
+
+struct StudyOutcome {
+  std::size_t runs = 0, failed = 0, waiting = 0;
+  std::vector<std::string> verdicts{};
+};
+
+/// Analyses the runs of campaigns into `out`: analysis.json, tables, plots, and `page`, one HTML file. Throws
+/// InputError where there is nothing to analyse, RuntimeFailure where something cannot be written.
+StudyOutcome write_study(std::span<const std::filesystem::path> folders, const std::filesystem::path& out,
+                         const std::filesystem::path& page, const StudyOptions& options);
+
+}  // namespace knap
