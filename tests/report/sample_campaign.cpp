@@ -18,9 +18,10 @@ constexpr std::array<std::array<int, 4>, 6> tets_of_cube{
 
 using Place = std::array<Index, 3>;
 
-// The larger sector spans the larger angle: 1, 1/2, 1/3, ...
+// The larger sector spans the larger angle: 1, 1/2, 1/3, ...; three are seen from where the page looks at first.
 Index sector(const Vec3& x, Index num) {
-  double total = 0.0, angle = (std::atan2(x.y(), x.x()) + std::numbers::pi) / (2 * std::numbers::pi);
+  double total = 0.0, angle = std::atan2(x.y(), x.x()) / (2 * std::numbers::pi) + 1.0 / 12;
+  if (angle < 0.0) angle += 1.0;
   for (Index k = 1; k <= num; ++k) total += 1.0 / k;
   for (Index k = 1; k < num; ++k) {
     angle -= 1.0 / k / total;
