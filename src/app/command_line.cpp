@@ -91,6 +91,26 @@ CampaignApps add_campaign(CLI::App& app, CampaignArguments& campaign) {
   return {command, plan};
 }
 
+CLI::App* add_analyse(CLI::App& app, AnalyseArguments& analyse) {
+  CLI::App* command =
+      app.add_subcommand("analyse", "Analyse the runs of campaigns: breakage curves, laws, plots, report.html");
+  command->add_option("FOLDER", analyse.folders, "Folders of campaigns; several are taken together")->required();
+  command->add_option("--out", analyse.out, "Folder of report.html and analysis/; default: the first FOLDER")
+      ->type_name("DIR");
+  command->add_option("--sieve", analyse.sieve, "Sieve of the breakage ratio; default: the diameter over 2^(1/4)")
+      ->type_name("LENGTH");
+  command->add_option("--broken", analyse.broken, "Mass loss from which a particle is broken")
+      ->check(CLI::Range(1e-6, 1.0))
+      ->capture_default_str();
+  command
+      ->add_option("--normal-speeds", analyse.normal_speeds,
+                   "Speeds towards the wall [m/s] at which the tangential effect is told; default: 8,14")
+      ->type_name("V,...")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  return command;
+}
+
 int run_parsed(int argc, char** argv) {
   CLI::App app{"Knap breaks a granule: fracture of a single particle on impact", "knap"};
   app.set_version_flag("--version", std::string("knap ") + version);
@@ -101,6 +121,7 @@ int run_parsed(int argc, char** argv) {
   MeshArguments mesh;
   ModesArguments modes;
   CampaignArguments campaign;
+  AnalyseArguments analyse;
   bool markdown = false;
   const CLI::App* run_app = add_run(app, run);
   const CLI::App* strength_app = add_strength(app, strength);
@@ -111,6 +132,7 @@ int run_parsed(int argc, char** argv) {
   mesh_app->add_option("--out", mesh.out, "Where to write the mesh (.vtu)")->type_name("FILE")->required();
   const CLI::App* modes_app = add_modes(app, modes);
   const CampaignApps campaign_apps = add_campaign(app, campaign);
+  const CLI::App* analyse_app = add_analyse(app, analyse);
   CLI::App* keys_app = app.add_subcommand("keys", "Print every key of a case file");
   keys_app->add_flag("--markdown", markdown, "As a page of documentation");
   try {
@@ -125,6 +147,7 @@ int run_parsed(int argc, char** argv) {
   if (*modes_app) return code(modes_command(modes));
   if (*campaign_apps.plan) return code(campaign_plan_command(campaign));
   if (*campaign_apps.run) return code(campaign_command(campaign));
+  if (*analyse_app) return code(analyse_command(analyse));
   return code(keys_command(markdown));
 }
 

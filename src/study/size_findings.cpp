@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/size_fits.hpp"
+#include "study/condition_plots.hpp"
 #include "study/summary_table.hpp"
 
 namespace knap {
@@ -15,15 +16,6 @@ using Json = nlohmann::ordered_json;
 
 // Sieves are told over the particle's diameter.
 constexpr double largest_sieve = 1.0, smallest_sieve = 0.02;
-
-std::vector<Condition> steepest_of(const Series& series) {
-  double steepest = 0.0;
-  for (const Condition& condition : series.conditions) steepest = std::max(steepest, condition.angle);
-  std::vector<Condition> list;
-  for (const Condition& condition : series.conditions)
-    if (condition.angle == steepest) list.push_back(condition);
-  return list;
-}
 
 // Of what is finer than most of the largest pieces and coarser than the floor.
 void fit_laws(const Study& study, const Condition& condition, const std::vector<double>& sieves,
@@ -49,7 +41,7 @@ void fit_laws(const Study& study, const Condition& condition, const std::vector<
 
 void add_distributions(Findings& findings, const Study& study, const Series& series, const std::string& suffix,
                        Json& json) {
-  const std::vector<Condition> list = steepest_of(series);
+  const std::vector<Condition> list = at_steepest_angle(series);
   const std::vector<double> sieves = sieve_series(largest_sieve, smallest_sieve);
   PageSection section{.title = titled("Size distributions", series)};
   section.paragraphs.push_back(fmt::format(
@@ -89,26 +81,16 @@ void add_distributions(Findings& findings, const Study& study, const Series& ser
 }
 
 void add_over_speed(Findings& findings, const Study& study, const Series& series, const std::string& suffix) {
-  const std::vector<Condition> list = steepest_of(series);
+  const std::vector<Condition> list = at_steepest_angle(series);
   const auto plot_of = [&](const std::vector<std::string>& names, const std::string& title,
                            const std::string& y_label) {
     PlotInput plot{.title = titled(title, series), .x_label = "impact speed [m/s]", .y_label = y_label};
     for (const std::string& name : names) {
-      PlotSeries points{.name = name, .style = PlotSeries::Style::Points};
-      for (const Condition& condition : list) {
-        const Spread s = spread_of(study, condition, measure(name));
-        if (!std::isfinite(s.mean)) continue;
-        points.x.push_back(condition.speed), points.y.push_back(s.mean);
-        const bool has_interval = std::isfinite(s.interval.low);
-        points.low.push_back(has_interval ? s.interval.low : s.mean);
-        points.high.push_back(has_interval ? s.interval.high : s.mean);
-      }
-      std::replace(points.name.begin(), points.name.end(), '_', ' ');
+      const PlotSeries points =
+          points_of(study, list, name, words(name), [](const Condition& condition) { return condition.speed; });
       if (!points.x.empty()) plot.series.push_back(points);
     }
-    const std::size_t n = plot.series.size();
-    for (std::size_t i = 0; i < n; ++i)
-      plot.series.push_back({.x = plot.series[i].x, .y = plot.series[i].y, .colour = i});
+    join_points(plot);
     return plot;
   };
   PageSection section{.title = titled("Fineness, pieces and shapes", series)};

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <set>
@@ -141,7 +143,7 @@ StudyRun run_of(const fs::path& folder, const StudyTable& table, const std::vect
   const fs::path pieces = run.impacts.empty() ? run.folder : run.folder / fmt::format("impact_{}", run.impacts.size());
   run.sizes = sizes_in(pieces / "size_distribution.csv");
   run.shape = shapes_in(pieces / "fragments.csv");
-  const std::array sieves{sieve * run.diameter};
+  const std::array sieves{sieve > 0.0 ? sieve : run.diameter * std::exp2(-0.25)};
   run.breakage_ratio = passing(run.sizes, sieves)[0];
   return run;
 }
@@ -170,7 +172,7 @@ double StudyRun::number(const std::string& column) const {
 }
 
 Study read_study(std::span<const fs::path> folders, double sieve) {
-  Study study{.sieve_over_diameter = sieve};
+  Study study{.sieve = sieve};
   for (const fs::path& folder : folders) {
     const StudyTable table = table_of(folder);
     const std::string prefix =

@@ -21,17 +21,17 @@ struct ImpactRow {
 };
 
 struct StudyRun {
-  std::string name;
-  std::filesystem::path folder;
+  std::string name{};
+  std::filesystem::path folder{};
   double speed = 0.0;         ///< [m/s]; 0 = the particle does not strike a wall
   double angle = 0.0;         ///< from the plane of the wall [rad]
   double friction = 0.0;      ///< of the wall
   double diameter = 0.0;      ///< [m]
   double element_size = 0.0;  ///< mean edge, the resolution floor [m]
-  std::string series;         ///< what else varies but speed, angle, mesh and seeds: "diameter = 0.001 m"; "" = nothing
-  std::string mesh;           ///< keys of the mesh that vary
-  std::string seed;           ///< seeds that vary
-  std::string breakage_class;
+  std::string series{};       ///< what else varies but speed, angle, mesh and seeds: "diameter = 0.001 m"; "" = nothing
+  std::string mesh{};         ///< keys of the mesh that vary
+  std::string seed{};         ///< seeds that vary
+  std::string breakage_class{};
   std::map<std::string, double> numbers{};  ///< of results.csv; a cell that is empty is not there
   std::vector<SizeRow> sizes{};             ///< ascending
   ShapeMeans shape{};
@@ -52,16 +52,16 @@ struct Study {
   std::vector<StudyRun> runs{};  ///< done
   StudyTable table{};            ///< all, of the first folder's columns and what others add
   std::size_t failed = 0, waiting = 0;
-  double sieve_over_diameter = 0.0;
+  double sieve = 0.0;  ///< of the breakage ratio [m]; 0 = the diameter over 2^(1/4)
 };
 
-/// Reads the folders of campaigns. `sieve`: size over the particle's diameter of the breakage ratio's sieve. Throws
+/// Reads the folders of campaigns. `sieve`: of the breakage ratio [m]; 0 = each diameter over 2^(1/4). Throws
 /// InputError naming folder and what is wrong; where no run is done.
 Study read_study(std::span<const std::filesystem::path> folders, double sieve);
 
 /// Runs alike but for mesh and seed.
 struct Condition {
-  std::string series;
+  std::string series{};
   double speed = 0.0, angle = 0.0, friction = 0.0;
   std::vector<std::size_t> runs{};  ///< of the study
 };
@@ -70,7 +70,7 @@ std::vector<Condition> conditions(const Study& study);
 
 /// The different series in the order of conditions(), with the friction where that varies: what is fitted by itself.
 struct Series {
-  std::string name;  ///< "" if there is only one
+  std::string name{};  ///< "" if there is only one
   std::vector<Condition> conditions{};
 };
 std::vector<Series> series_of(const Study& study);

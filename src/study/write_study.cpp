@@ -72,7 +72,7 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
   findings.json = {
       {"title", options.title},
       {"runs", {{"done", study.runs.size()}, {"failed", study.failed}, {"not_done", study.waiting}}},
-      {"sieve_over_diameter", options.sieve},
+      {"sieve_m", options.sieve > 0.0 ? Json(options.sieve) : Json("the diameter over 2^(1/4)")},
       {"units",
        "SI; angles in degrees from the plane of the wall where a name says deg; intervals are 95 %, bootstrap"}};
   add_summary(findings, study);

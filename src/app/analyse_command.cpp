@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "app/commands.hpp"
+#include "config/units.hpp"
+#include "study/write_study.hpp"
+
+namespace knap {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string title_of(const std::vector<fs::path>& folders) {
+  std::string title;
+  for (const fs::path& folder : folders)
+    title +=
+        (title.empty() ? "" : " + ") + (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
+  return title;
+}
+
+}  // namespace
+
+ExitCode analyse_command(const AnalyseArguments& arguments) {
+  StudyOptions options{.title = title_of(arguments.folders), .broken = arguments.broken};
+  if (!arguments.sieve.empty()) {
+    const Conversion sieve = convert_to_si(arguments.sieve, Quantity::Length);
+    if (!sieve.problem.empty()) throw InputError("--sieve " + arguments.sieve + ": " + sieve.problem);
+    if (!(sieve.value > 0.0)) throw InputError("--sieve " + arguments.sieve + ": must be above 0");
+    options.sieve = sieve.value;
+  }
+  if (!arguments.normal_speeds.empty()) options.normal_speeds = arguments.normal_speeds;
+  const fs::path out = arguments.out.empty() ? arguments.folders.front() : arguments.out;
+  const StudyOutcome outcome = write_study(arguments.folders, out / "analysis", out / "report.html", options);
+  for (const std::string& verdict : outcome.verdicts) fmt::print("{}\n", verdict);
+  fmt::print("{} runs analysed, {} failed, {} not done; {}, plots and tables in {}\n", outcome.runs, outcome.failed,
+             outcome.waiting, (out / "report.html").string(), (out / "analysis").string());
+  std::fflush(stdout);
+  return ExitCode::Ok;
+}
+
+}  // namespace knap

@@ -1,0 +1,10 @@
+# cmake -D OUTPUT=page_files.cpp -D FILES=a.html;b.js -P embed.cmake: files as strings, a_html and b_js.
+set(code "#include \"report/page_files.hpp\"\n\nnamespace knap::page_files {\n")
+foreach(file ${FILES})
+  file(READ ${file} text)
+  get_filename_component(name ${file} NAME)
+  string(MAKE_C_IDENTIFIER ${name} name)
+  string(APPEND code "const std::string_view ${name} = R\"knap_page(${text})knap_page\";\n")
+endforeach()
+string(APPEND code "}  // namespace knap::page_files\n")
+file(WRITE ${OUTPUT} "${code}")

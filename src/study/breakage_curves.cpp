@@ -1,0 +1,101 @@
+#include "study/breakage_curves.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "study/condition_plots.hpp"
+#include "study/summary_table.hpp"
+
+namespace knap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+void add_curves(Findings& findings, const Study& study, const Series& series, const std::string& suffix) {
+  PageSection section{.title = titled("Breakage over speed and angle", series)};
+  section.paragraphs.push_back(fmt::format(
+      "Angles are from the plane of the wall: 90° is straight on. Points are means over meshes and seeds, bars their "
+      "95 % bootstrap intervals. Breakage ratio: the mass that passes a sieve of {}; chipping ratio: the mass outside "
+      "the largest piece.",
+      study.sieve > 0.0 ? fmt::format("{:.4g} mm", 1e3 * study.sieve) : "the particle's diameter over 2^(1/4)"));
+  for (const std::string response : responses) {
+    PlotInput plot = by_angle(study, series, response, [](const Condition& c) { return c.speed; });
+    join_points(plot);
+    plot.title = titled(words(response) + " over speed", series);
+    plot.x_label = "impact speed [m/s]", plot.y_label = words(response) + " [-]";
+    add_figure(findings, section, response + "_over_speed" + suffix, plot, "");
+  }
+  const auto over_angle = [&](const std::string& response) {
+    PlotInput plot;
+    std::set<double> speeds;
+    for (const Condition& condition : series.conditions) speeds.insert(condition.speed);
+    for (const double speed : speeds) {
+      std::vector<Condition> list;
+      for (const Condition& condition : series.conditions)
+        if (condition.speed == speed) list.push_back(condition);
+      if (list.size() > 2)
+        plot.series.push_back(points_of(study, list, response, fmt::format("{:g} m/s", speed),
+                                        [](const Condition& c) { return c.angle / degree; }));
+    }
+    if (plot.series.size() > 8) plot.series.erase(plot.series.begin(), plot.series.end() - 8);  // the faster ones
+    join_points(plot);
+    return plot;
+  };
+  PlotInput plot = over_angle("breakage_ratio");
+  plot.title = titled("breakage ratio over angle", series);
+  plot.x_label = "impact angle from the wall [deg]", plot.y_label = "breakage ratio [-]";
+  add_figure(findings, section, "breakage_ratio_over_angle" + suffix, plot, "");
+  findings.sections.push_back(std::move(section));
+}
+
+/// The speed at which the mean of a response reaches a level, straight on or as near to it as there is; between speeds
+/// linearly. NaN if it does not.
+double speed_at_level(const Study& study, const std::vector<Condition>& list, const std::string& response, double level,
+                      const std::vector<std::vector<std::size_t>>* picks = nullptr) {
+  double last_speed = 0.0, last = 0.0;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const std::vector<std::size_t>& runs = picks != nullptr ? (*picks)[k] : list[k].runs;
+    const double now = mean_of(study, runs, response);
+    if (now >= level)
+      return k == 0 ? list[k].speed : last_speed + (level - last) / (now - last) * (list[k].speed - last_speed);
+    last_speed = list[k].speed, last = now;
+  }
+  return std::nan("");
+}
+
+void add_thresholds(Findings& findings, const Study& study, const Series& series, Json& json) {
+  const double steepest = angles_of(series).back();
+  const std::vector<Condition> list = at_steepest_angle(series);
+  if (list.size() < 3) return;
+  PageSection section{.title = titled("Threshold", series)};
+  for (const std::string response : responses)
+    for (const double level : {0.01, 0.05, 0.1, 0.5}) {
+      const double speed = speed_at_level(study, list, response, level);
+      std::vector<double> speeds;
+      for (const auto& draw : drawn_conditions(list, bootstrap_samples))
+        speeds.push_back(speed_at_level(study, list, response, level, &draw));
+      const Interval interval = central_95(speeds);
+      json["thresholds"].push_back({{"measure", response},
+                                    {"level", level},
+                                    {"angle_deg", steepest / degree},
+                                    {"speed", json_of(speed)},
+                                    {"interval", json_of(interval)}});
+      section.rows.push_back({fmt::format("{} reaches {:g} at {:.3g}°", words(response), level, steepest / degree),
+                              std::isfinite(speed) ? fmt::format("{:.3g} m/s", speed) : "not reached", shown(interval),
+                              speed == list.front().speed ? "already at the slowest speed" : ""});
+    }
+  findings.sections.push_back(std::move(section));
+}
+
+}  // namespace
+
+void add_breakage_curves(Findings& findings, const Study& study, const Series& series, const std::string& suffix,
+                         Json& json) {
+  add_curves(findings, study, series, suffix);
+  add_thresholds(findings, study, series, json);
+}
+
+}  // namespace knap

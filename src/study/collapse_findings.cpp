@@ -1,0 +1,160 @@
+#include "study/collapse_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+
+#include "analysis/equivalent_velocity.hpp"
+#include "study/condition_plots.hpp"
+#include "study/summary_table.hpp"
+
+namespace knap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::vector<ObliqueImpact> impacts_of(const Study& study, const Series& series, const std::string& response) {
+  std::vector<ObliqueImpact> impacts;
+  for (const Condition& condition : series.conditions)
+    for (const double breakage : values_of(study, condition, measure(response).value))
+      impacts.push_back({condition.speed, condition.angle, condition.friction, breakage});
+  return impacts;
+}
+
+Json collapse_json(const Collapse& collapse, const std::vector<double>& list) {
+  Json json{{"curve",
+             {{"plateau", collapse.curve.plateau},
+              {"scale_m_per_s", collapse.curve.scale},
+              {"exponent", collapse.curve.exponent}}},
+            {"rms", collapse.rms},
+            {"left_out_rms", collapse.left_out_rms}};
+  for (std::size_t i = 0; i < list.size(); ++i)
+    json["left_out_rms_by_angle"].push_back({{"angle_deg", list[i] / degree}, {"rms", collapse.left_out_by_angle[i]}});
+  return json;
+}
+
+std::string sentence(CollapseVerdict verdict) {
+  switch (verdict) {
+    case CollapseVerdict::Beats:
+      return "the equivalent velocity beats the normal component alone";
+    case CollapseVerdict::Loses:
+      return "the normal component alone is better than the equivalent velocity";
+    case CollapseVerdict::Undecided:
+      break;
+  }
+  return "the equivalent velocity does not beat the normal component alone: the difference is within the scatter";
+}
+
+void draw_collapse(Findings& findings, PageSection& section, const Study& study, const Series& series,
+                   const std::string& response, const Collapse& collapse, double a_mu, const std::string& over,
+                   const std::string& stem) {
+  const auto velocity = [&](const Condition& c) { return equivalent_velocity(c.speed, c.angle, a_mu); };
+  PlotInput plot = by_angle(study, series, response, velocity);
+  PlotSeries curve{.name = "one curve for all", .style = PlotSeries::Style::Dashes, .colour = 4};
+  double fastest = 0.0;
+  for (const Condition& condition : series.conditions) fastest = std::max(fastest, velocity(condition));
+  for (int i = 0; i <= 100; ++i)
+    curve.x.push_back(0.01 * i * fastest), curve.y.push_back(collapse.curve(curve.x.back()));
+  plot.series.push_back(curve);
+  plot.title = titled(words(response) + " over " + over, series);
+  plot.x_label = over + " [m/s]", plot.y_label = words(response) + " [-]";
+  add_figure(findings, section, stem, plot, fmt::format("Runs lie {:.3f} (rms) from the curve.", collapse.rms));
+  PlotInput residuals = by_angle(study, series, response, velocity);
+  for (PlotSeries& points : residuals.series)
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+      const double at = collapse.curve(points.x[i]);
+      points.y[i] -= at, points.low[i] -= at, points.high[i] -= at;
+    }
+  residuals.title = titled("residuals over " + over, series);
+  residuals.x_label = over + " [m/s]", residuals.y_label = words(response) + " minus the curve [-]";
+  add_figure(findings, section, stem + "_residuals", residuals, "");
+}
+
+}  // namespace
+
+void add_collapse(Findings& findings, const Study& study, const Series& series, const std::string& suffix, Json& json) {
+  PageSection section{.title = titled("Equivalent velocity", series)};
+  section.paragraphs.push_back(
+      "v_eq = v sin θ √(1 + (a μ cos θ)²) (Wang et al. 2019), with a μ ≤ 1: beyond it v_eq does not rise with the "
+      "angle. "
+      "The null rule takes the normal component v sin θ alone. Both are judged by leaving out each angle in turn: the "
+      "rms distance of its runs from the curve b(1 − exp(−(v/v₀)ⁿ)) of the other angles, mean over angles.");
+  for (const std::string response : responses) {
+    const std::vector<ObliqueImpact> impacts = impacts_of(study, series, response);
+    std::optional<CollapseComparison> free;
+    try {
+      free = compare_collapse(impacts, FrictionRule::FreeProduct);
+    } catch (const std::invalid_argument& reason) {
+      json["equivalent_velocity"][response] = {{"not_fitted", reason.what()}};
+      section.paragraphs.push_back(words(response) + ": not fitted, " + reason.what() + ".");
+      continue;
+    }
+    const double friction = series.conditions.front().friction;
+    const CollapseVerdict answer = verdict(*free);
+    const std::vector<double> list = angles(impacts);
+    Json fit = collapse_json(free->model, list);
+    fit["a_mu"] = free->model.value;
+    fit["a_mu_interval"] = json_of(free->model.interval);
+    fit["a_mu_at_end_of_range"] = free->model.is_at_end;
+    fit["a_with_known_friction"] = free->model.value / friction;
+    fit["a_interval"] = json_of(Interval{free->model.interval.low / friction, free->model.interval.high / friction});
+    fit["wall_friction"] = friction;
+    json["equivalent_velocity"][response] = {{"model", fit},
+                                             {"null", collapse_json(free->null, list)},
+                                             {"gain_of_left_out_rms", json_of(free->gain)},
+                                             {"scatter_of_runs", free->scatter},
+                                             {"verdict", sentence(answer)}};
+    const std::string of = words(response) + ": ";
+    section.rows.push_back({of + "a μ", fmt::format("{:.3g}", free->model.value), shown(free->model.interval),
+                            free->model.is_at_end ? "at the end of its range" : ""});
+    section.rows.push_back(
+        {of + fmt::format("a, for the case's μ = {:g}", friction), fmt::format("{:.3g}", free->model.value / friction),
+         shown(Interval{free->model.interval.low / friction, free->model.interval.high / friction}), ""});
+    section.rows.push_back({of + "left-out error of v_eq", fmt::format("{:.4f}", free->model.left_out_rms), "", ""});
+    section.rows.push_back({of + "left-out error of v sin θ", fmt::format("{:.4f}", free->null.left_out_rms), "", ""});
+    section.rows.push_back({of + "gain", fmt::format("{:.4f}", free->null.left_out_rms - free->model.left_out_rms),
+                            shown(free->gain), sentence(answer)});
+    section.rows.push_back(
+        {of + "scatter of runs alike", fmt::format("{:.4f}", free->scatter), "", "what no curve can beat"});
+    findings.verdicts.push_back(
+        fmt::format("{}: by the {}, {} (error on an angle left out {:.3f} against {:.3f}; a μ = {}).",
+                    titled("Equivalent velocity", series), words(response), sentence(answer), free->model.left_out_rms,
+                    free->null.left_out_rms, shown(free->model.value, free->model.interval)));
+    draw_collapse(findings, section, study, series, response, free->model, free->model.value, "equivalent velocity",
+                  fmt::format("collapse_{}{}", response, suffix));
+    draw_collapse(findings, section, study, series, response, free->null, 0.0, "normal velocity",
+                  fmt::format("collapse_null_{}{}", response, suffix));
+  }
+  findings.sections.push_back(std::move(section));
+}
+
+void add_known_friction(Findings& findings, const Study& study) {
+  std::set<double> frictions;
+  for (const StudyRun& run : study.runs)
+    if (run.series.empty()) frictions.insert(run.friction);
+  if (frictions.size() < 2) return;
+  Json& json = findings.json["one_a_for_all_frictions"];
+  PageSection section{.title = "Equivalent velocity, one a for all frictions"};
+  for (const std::string response : responses) {
+    std::vector<ObliqueImpact> impacts;
+    for (const Series& series : series_of(study))
+      for (const ObliqueImpact& impact : impacts_of(study, series, response)) impacts.push_back(impact);
+    try {
+      const CollapseComparison known = compare_collapse(impacts, FrictionRule::KnownFriction);
+      json[response] = collapse_json(known.model, angles(impacts));
+      json[response]["a"] = known.model.value;
+      json[response]["a_interval"] = json_of(known.model.interval);
+      json[response]["verdict"] = sentence(verdict(known));
+      section.rows.push_back({words(response) + ": a", fmt::format("{:.3g}", known.model.value),
+                              shown(known.model.interval), sentence(verdict(known))});
+    } catch (const std::invalid_argument& reason) {
+      section.paragraphs.push_back(words(response) + ": not fitted, " + reason.what() + ".");
+    }
+  }
+  findings.sections.push_back(std::move(section));
+}
+
+}  // namespace knap

@@ -1,0 +1,171 @@
+#include "study/tangential_findings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "study/condition_plots.hpp"
+#include "study/summary_table.hpp"
+
+namespace knap {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The mean at a speed between those run, linearly; with which runs of each side, for the bootstrap.
+std::optional<double> at_speed(const Study& study, const std::vector<Condition>& list, const std::string& response,
+                               double speed, const std::vector<std::vector<std::size_t>>& runs) {
+  const auto mean_at = [&](std::size_t k) { return mean_of(study, runs[k], response); };
+  constexpr double same = 1e-6;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (std::abs(list[k].speed - speed) <= same * speed) return mean_at(k);
+  for (std::size_t k = 1; k < list.size(); ++k)
+    if (list[k - 1].speed < speed && speed < list[k].speed) {
+      const double t = (speed - list[k - 1].speed) / (list[k].speed - list[k - 1].speed);
+      return (1.0 - t) * mean_at(k - 1) + t * mean_at(k);
+    }
+  return std::nullopt;
+}
+
+/// A response at one normal speed over the tangential one, and the slope.
+struct TangentialEffect {
+  std::vector<double> tangential{}, value{};
+  std::vector<Interval> interval{};
+  double slope = 0.0;  // [s/m]
+  Interval slope_interval{};
+};
+
+double slope_of(const std::vector<double>& x, const std::vector<double>& y) {
+  double xx = 0.0, xy = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xx += (x[i] - mean(x)) * (x[i] - mean(x));
+    xy += (x[i] - mean(x)) * (y[i] - mean(y));
+  }
+  return xy / xx;
+}
+
+TangentialEffect tangential_effect(const Study& study, const Series& series, const std::string& response,
+                                   double normal) {
+  constexpr int samples = 300;
+  TangentialEffect effect;
+  std::vector<std::vector<double>> drawn(samples);
+  for (const double angle : angles_of(series)) {
+    const std::vector<Condition> list = at_angle(series, angle);
+    std::vector<std::vector<std::size_t>> runs;
+    for (const Condition& condition : list) runs.push_back(condition.runs);
+    const double speed = normal / std::sin(angle);
+    const auto value = at_speed(study, list, response, speed, runs);
+    if (!value) continue;
+    effect.tangential.push_back(speed * std::cos(angle));
+    effect.value.push_back(*value);
+    std::vector<double> values;
+    const auto draws = drawn_conditions(list, samples);
+    for (std::size_t k = 0; k < draws.size(); ++k) {
+      values.push_back(*at_speed(study, list, response, speed, draws[k]));
+      drawn[k].push_back(values.back());
+    }
+    effect.interval.push_back(central_95(values));
+  }
+  if (effect.value.size() < 3) return effect;
+  effect.slope = slope_of(effect.tangential, effect.value);
+  std::vector<double> slopes;
+  for (const auto& values : drawn) slopes.push_back(slope_of(effect.tangential, values));
+  effect.slope_interval = central_95(slopes);
+  return effect;
+}
+
+}  // namespace
+
+void add_tangential(Findings& findings, const Study& study, const Series& series,
+                    const std::vector<double>& normal_speeds, const std::string& suffix, Json& json) {
+  PageSection section{.title = titled("Effect of the tangential velocity", series)};
+  section.paragraphs.push_back(
+      "At one normal velocity, under all angles: between the speeds that were run, linearly. The slope is that of a "
+      "straight line, its interval 95 % by bootstrap.");
+  for (const std::string response : responses) {
+    PlotInput plot{.title = titled(words(response) + " at fixed normal velocity", series),
+                   .x_label = "tangential velocity [m/s]",
+                   .y_label = words(response) + " [-]"};
+    for (const double normal : normal_speeds) {
+      const TangentialEffect effect = tangential_effect(study, series, response, normal);
+      if (effect.value.size() < 3) continue;
+      PlotSeries points{.name = fmt::format("{:g} m/s towards the wall", normal),
+                        .x = effect.tangential,
+                        .y = effect.value,
+                        .style = PlotSeries::Style::Points};
+      for (const Interval& interval : effect.interval)
+        points.low.push_back(interval.low), points.high.push_back(interval.high);
+      plot.series.push_back(points);
+      const std::string answer = effect.slope_interval.low > 0.0    ? "rises with the tangential velocity"
+                                 : effect.slope_interval.high < 0.0 ? "falls with the tangential velocity"
+                                                                    : "no effect beyond the scatter";
+      const double range = *std::max_element(effect.value.begin(), effect.value.end()) -
+                           *std::min_element(effect.value.begin(), effect.value.end());
+      Json one{{"measure", response},
+               {"normal_speed", normal},
+               {"slope_s_per_m", json_of(effect.slope)},
+               {"slope_interval", json_of(effect.slope_interval)},
+               {"range", range},
+               {"verdict", answer}};
+      for (std::size_t i = 0; i < effect.value.size(); ++i)
+        one["points"].push_back({{"tangential_speed", effect.tangential[i]},
+                                 {"mean", effect.value[i]},
+                                 {"interval", json_of(effect.interval[i])}});
+      json["tangential_effect"].push_back(one);
+      section.rows.push_back({fmt::format("{} at {:g} m/s towards the wall", words(response), normal),
+                              fmt::format("{:.2g} per m/s", effect.slope), shown(effect.slope_interval),
+                              fmt::format("{}; values differ by {:.2g}", answer, range)});
+      findings.verdicts.push_back(fmt::format("{}: {} at {:g} m/s towards the wall: {} (values differ by {:.2g}).",
+                                              titled("Tangential velocity", series), words(response), normal, answer,
+                                              range));
+    }
+    join_points(plot);
+    add_figure(findings, section, fmt::format("tangential_{}{}", response, suffix), plot, "");
+  }
+  if (!section.rows.empty()) findings.sections.push_back(std::move(section));
+}
+
+// Without friction the wall cannot tell the tangential velocity: runs of one mesh and seed with the same v sin th are
+// the same run seen from a moving frame.
+void add_frictionless(Findings& findings, const Study& study, const Series& series, Json& json) {
+  std::map<std::pair<std::string, long>, std::vector<const StudyRun*>> alike;
+  for (const Condition& condition : series.conditions)
+    for (const std::size_t i : condition.runs) {
+      const StudyRun& run = study.runs[i];
+      const double normal = run.speed * std::sin(run.angle);
+      alike[{run.mesh + run.seed, std::lround(1e4 * normal)}].push_back(&run);
+    }
+  PageSection section{.title = titled("A wall without friction", series)};
+  section.paragraphs.push_back(
+      "Without friction damage depends on v sin θ only (the tangential part is a rigid translation): an exact check. "
+      "Differences are round-off that cracks amplify once they branch.");
+  double largest = 0.0, squares = 0.0, closest = 0.0;
+  std::size_t pairs = 0;
+  for (const auto& [key, runs] : alike)
+    for (std::size_t k = 1; k < runs.size(); ++k) {
+      const double difference = std::abs(runs[k]->chipping_ratio() - runs[0]->chipping_ratio());
+      largest = std::max(largest, difference);
+      squares += difference * difference, ++pairs;
+      closest += difference < 1e-9 ? 1.0 : 0.0;
+    }
+  if (pairs == 0) return;
+  const double rms = std::sqrt(squares / static_cast<double>(pairs));
+  json["frictionless_identity"] = {{"pairs", pairs},
+                                   {"largest_difference", largest},
+                                   {"rms_difference", rms},
+                                   {"equal_to_1e-9", closest / static_cast<double>(pairs)}};
+  section.rows.push_back({"pairs of runs with the same normal velocity", std::to_string(pairs), "", ""});
+  section.rows.push_back({"largest difference of the chipping ratio", fmt::format("{:.2g}", largest), "", ""});
+  section.rows.push_back({"rms difference", fmt::format("{:.2g}", rms), "", ""});
+  section.rows.push_back(
+      {"equal to 1e-9", fmt::format("{:.0f} %", 100.0 * closest / static_cast<double>(pairs)), "", ""});
+  findings.verdicts.push_back(
+      fmt::format("{}: at equal normal velocity, chipping ratios differ by {:.2g} at most, {:.2g} "
+                  "rms, over {} pairs.",
+                  titled("No friction", series), largest, rms, pairs));
+  findings.sections.push_back(std::move(section));
+}
+
+}  // namespace knap
