@@ -143,6 +143,9 @@ StudyRun run_of(const fs::path& folder, const StudyTable& table, const std::vect
   const fs::path pieces = run.impacts.empty() ? run.folder : run.folder / fmt::format("impact_{}", run.impacts.size());
   run.sizes = sizes_in(pieces / "size_distribution.csv");
   run.shape = shapes_in(pieces / "fragments.csv");
+  if (sieve >= run.diameter)
+    throw InputError(fmt::format("the sieve of {:.4g} mm is not finer than the particle of {:.4g} mm ({})", 1e3 * sieve,
+                                 1e3 * run.diameter, run.name));
   const std::array sieves{sieve > 0.0 ? sieve : run.diameter * std::exp2(-0.25)};
   run.breakage_ratio = passing(run.sizes, sieves)[0];
   return run;

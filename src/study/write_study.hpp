@@ -8,9 +8,8 @@ namespace knap {
 
 struct StudyOptions {
   std::string title{};
-  double sieve =
-      0.8408964152537145;  ///< of the breakage ratio, over the diameter: the next finer of the series 2^(1/4)
-  double broken = 0.1;     ///< mass loss from which a particle is broken (Tavares & King 1998)
+  double sieve = 0.0;   ///< of the breakage ratio [m]; 0 = the diameter over 2^(1/4), the next finer of that series
+  double broken = 0.1;  ///< mass loss from which a particle is broken (Tavares & King 1998)
   std::vector<double> normal_speeds{8.0, 14.0};  ///< at which the tangential effect is told [m/s]
 };
 
