@@ -23,6 +23,7 @@ void write_campaign_page(const std::filesystem::path& html, const CampaignPage& 
                                                                {"css", page_files::page_css},
                                                                {"three_licence", page_files::three_licence_txt},
                                                                {"three", page_files::three_min_js},
+                                                               {"fragments", page_files::fragments_js},
                                                                {"viewer", page_files::viewer_js},
                                                                {"runs_table", page_files::runs_table_js},
                                                                {"page", page_files::page_js}}));

@@ -278,6 +278,20 @@ class Page(PageTest):
         self.assertEqual(legend[0].split("\n")[0], "Fragment 1")
         self.assertRegex(legend[-1], r"^Fines, \d+ below 0.1 %")
 
+    def test_tells_the_fragment_under_the_pointer(self):
+        self.reset()
+        start, view = self.picture(), self.element("#view")
+        self.run_script("arguments[0].scrollIntoView()", view)
+        half = view.size["width"] / 2, view.size["height"] / 2
+        for colour, name in (("blue", "Fragment 1: "), ("orange", "Fragment 2: "), ("green", "Fragment 3: ")):
+            seen = self.colours()[colour]
+            place = round(seen["x"] - half[0]), round(seen["y"] - half[1])
+            webdriver.ActionChains(self.browser).move_to_element_with_offset(view, *place).perform()
+            wait_for(name, lambda: self.text("#view-pointed").startswith(name))
+        webdriver.ActionChains(self.browser).move_to_element_with_offset(view, 5 - round(half[0]), 0).perform()
+        wait_for("nothing", lambda: self.text("#view-pointed") == "")
+        self.assertEqual(self.picture(), start)
+
     def test_slider_moves_fragments_apart_and_back(self):
         self.reset()
         together, distance = self.picture(), self.distance_of_fragments()

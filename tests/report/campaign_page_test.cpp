@@ -28,8 +28,8 @@ std::size_t occurrences(const std::string& text, const std::string& part) {
 
 /// The page without its scripts' code, which is the same in every page.
 std::string without_code(std::string html) {
-  for (const std::string_view code : {page_files::three_min_js, page_files::viewer_js, page_files::runs_table_js,
-                                      page_files::page_js, page_files::page_css})
+  for (const std::string_view code : {page_files::three_min_js, page_files::fragments_js, page_files::viewer_js,
+                                      page_files::runs_table_js, page_files::page_js, page_files::page_css})
     html.replace(html.find(code), code.size(), "");
   return html;
 }
@@ -63,8 +63,8 @@ TEST_F(CampaignPageTest, NoTextBreaksOutOfItsPlace) {
   // table, frames and its two blobs, three.js, the page's own code
   EXPECT_EQ(occurrences(html, "<script"), 6u);
   EXPECT_EQ(occurrences(html, "</script"), 6u);
-  for (const std::string_view code :
-       {page_files::three_min_js, page_files::viewer_js, page_files::runs_table_js, page_files::page_js})
+  for (const std::string_view code : {page_files::three_min_js, page_files::fragments_js, page_files::viewer_js,
+                                      page_files::runs_table_js, page_files::page_js})
     EXPECT_EQ(code.find("</script"), code.npos);
 }
 

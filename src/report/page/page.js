@@ -24,6 +24,13 @@ function fillLegend(list, fragments) {
   list.replaceChildren(...lines);
 }
 
+// What all names begin with, up to a '-': a list of long ones need not show it.
+function commonPrefix(names) {
+  let prefix = names[0];
+  for (const name of names) while (!name.startsWith(prefix)) prefix = prefix.slice(0, -1);
+  return names.length > 1 ? prefix.slice(0, prefix.lastIndexOf("-") + 1) : "";
+}
+
 // Returns what shows a run by its name.
 function setUpViewer(frames, shownRun) {
   if (!frames.length) return {show() {}};
@@ -34,7 +41,9 @@ function setUpViewer(frames, shownRun) {
     byId("panel").inert = true;
     return {show() {}};
   }
-  choice.append(...frames.map((frame, i) => element("option", {value: i}, frame.name)));
+  const prefix = commonPrefix(frames.map(frame => frame.name));
+  const short = name => (prefix && "… ") + name.slice(prefix.length);
+  choice.append(...frames.map((frame, i) => element("option", {value: i}, short(frame.name))));
   let last = 0;
   async function show(index) {
     const turn = ++last, frame = frames[index];
@@ -59,6 +68,18 @@ function setUpViewer(frames, shownRun) {
   choice.addEventListener("change", () => show(Number(choice.value)));
   byId("run-before").addEventListener("click", () => show(Math.max(Number(choice.value) - 1, 0)));
   byId("run-after").addEventListener("click", () => show(Math.min(Number(choice.value) + 1, frames.length - 1)));
+  let pointed = null;  // where the pointer is, until the next picture
+  const tell = () => {
+    const fragment = pointed && viewer.fragmentAt(...pointed);
+    pointed = null;
+    byId("view-pointed").textContent = fragment ? `Fragment ${fragment.rank + 1}: ${percent(fragment.share)}` : "";
+  };
+  byId("view").addEventListener("pointermove", event => {
+    if (event.buttons) return;
+    if (!pointed) requestAnimationFrame(tell);
+    pointed = [event.offsetX, event.offsetY];
+  });
+  byId("view").addEventListener("pointerleave", () => { byId("view-pointed").textContent = ""; });
   const moveApart = () => {
     byId("apart-value").textContent = `${byId("apart").value} %`;
     viewer.set({apart: byId("apart").value / 100});
@@ -110,10 +131,10 @@ function setUpPictures() {
   const large = byId("large");
   for (const button of document.querySelectorAll(".enlarge"))
     button.addEventListener("click", () => {
-      const picture = button.querySelector("img");
+      const picture = button.querySelector("img"), caption = button.closest("figure").querySelector("figcaption");
       large.querySelector("img").src = picture.src;
       large.querySelector("img").alt = picture.alt;
-      large.querySelector("p").textContent = button.closest("figure").querySelector("figcaption").firstElementChild.textContent || picture.alt;
+      large.querySelector("p").textContent = caption.firstElementChild.textContent || picture.alt;
       large.showModal();
     });
   large.addEventListener("click", event => { if (event.target.tagName !== "P") large.close(); });
@@ -126,7 +147,8 @@ function setUpContents() {
   const links = [...document.querySelectorAll("#contents a")];
   for (const link of links) link.parentElement.hidden = !document.querySelector(link.getAttribute("href"));
   const mark = () => {
-    const passed = links.filter(link => document.querySelector(link.getAttribute("href"))?.getBoundingClientRect().top < 120);
+    const top = link => document.querySelector(link.getAttribute("href"))?.getBoundingClientRect().top;
+    const passed = links.filter(link => top(link) < 120);
     for (const link of links) {
       if (link === passed.at(-1)) link.setAttribute("aria-current", "true");
       else link.removeAttribute("aria-current");
@@ -142,6 +164,7 @@ const knapPage = (() => {
   const view = setUpViewer(frames, name => table?.mark(name));
   table = makeRunsTable(byId("runs-table"), stored("table"), new Set(view.viewer ? frames.map(frame => frame.name) : []),
                         name => view.show(name));
+  byId("framed-hint").hidden = !view.viewer;
   fillColumnList(table);
   byId("filter").addEventListener("input", event => table.filter(event.target.value));
   byId("save-table").addEventListener("click", () => {

@@ -96,7 +96,7 @@ function makeRunsTable(table, data, framed, choose) {
     if (last) button.append(element("small", {}, ...breakable(path.slice(0, last - 1))));
     const mark = element("span", {className: "order"});
     mark.setAttribute("aria-hidden", "true");
-    button.append(...breakable(path.slice(last)), unit ? element("span", {className: "unit"}, " ", unit.trim()) : "", " ", mark);
+    button.append(element("span", {}, ...breakable(path.slice(last)), unit ? " " + unit.trim() : "", " ", mark));
     const isSorted = order.column === column;
     th.setAttribute("aria-sort", isSorted ? (order.descending ? "descending" : "ascending") : "none");
     button.addEventListener("click", () => {
@@ -124,8 +124,8 @@ function makeRunsTable(table, data, framed, choose) {
     for (const column of drawn) {
       const cell = row[column.index];
       if (column.index === 0) tr.append(nameCell(cell));
-      else if (column.isNumeric) tr.append(element("td", {className: "number", title: cell}, shortNumber(cell, column.isWhole)));
-      else tr.append(element("td", {className: "text", title: cell}, cell));
+      else tr.append(element("td", {className: column.isNumeric ? "number" : "text", title: cell},
+                             column.isNumeric ? shortNumber(cell, column.isWhole) : cell));
     }
     if (framed.has(row[0])) tr.classList.add("has-frame");
     tr.classList.toggle("shown", row[0] === shownName);
@@ -136,10 +136,12 @@ function makeRunsTable(table, data, framed, choose) {
     const drawn = shownColumns(), rows = shownRows();
     table.tHead.replaceChildren(element("tr", {}, ...drawn.map(headCell)));
     const lines = rows.map(i => bodyRow(i, drawn));
-    if (!rows.length) lines.push(element("tr", {}, element("td", {className: "empty", colSpan: drawn.length || 1}, "No run fits the filter.")));
+    const nothing = element("td", {className: "empty", colSpan: drawn.length || 1}, "No run fits the filter.");
+    if (!rows.length) lines.push(element("tr", {}, nothing));
     table.tBodies[0].replaceChildren(...lines);
     const count = document.getElementById("row-count");
-    count.textContent = rows.length === data.rows.length ? `${rows.length} runs` : `${rows.length} of ${data.rows.length} runs`;
+    const all = data.rows.length;
+    count.textContent = rows.length === all ? `${all} runs` : `${rows.length} of ${all} runs`;
   }
 
   table.tBodies[0].addEventListener("click", event => {
