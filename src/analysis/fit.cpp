@@ -46,13 +46,19 @@ double loss_of(const std::vector<double>& unit, std::vector<double>&, void* sear
   return static_cast<const Search*>(search)->at(unit);
 }
 
-std::vector<double> searched(nlopt::algorithm algorithm, Search& search, std::vector<double> unit, int most_looks) {
+/// When to stop: the step over the width of the ranges, the change of the loss over the loss.
+struct Tolerance {
+  double step = 1e-9, loss = 1e-13;
+};
+
+std::vector<double> searched(nlopt::algorithm algorithm, Search& search, std::vector<double> unit, int most_looks,
+                             const Tolerance& tolerance = {}) {
   nlopt::opt optimiser(algorithm, static_cast<unsigned>(unit.size()));
   optimiser.set_min_objective(loss_of, &search);
   optimiser.set_lower_bounds(0.0);
   optimiser.set_upper_bounds(1.0);
-  optimiser.set_xtol_abs(1e-9);
-  optimiser.set_ftol_rel(1e-13);
+  optimiser.set_xtol_abs(tolerance.step);
+  optimiser.set_ftol_rel(tolerance.loss);
   optimiser.set_maxeval(most_looks);
   if (algorithm == nlopt::LN_SBPLX) optimiser.set_initial_step(0.02);
   double value = 0.0;
@@ -155,7 +161,8 @@ std::vector<double> refit(const std::vector<FitParameter>& parameters, const Law
   const Loss loss = squares_of(law, data);
   Search search{parameters, loss};
   for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = to_unit(parameters[i], guess[i]);
-  return from_unit(parameters, searched(nlopt::LN_SBPLX, search, guess, 600));
+  constexpr Tolerance coarse{.step = 1e-4, .loss = 1e-7};  // far below what drawing anew does
+  return from_unit(parameters, searched(nlopt::LN_SBPLX, search, guess, 600, coarse));
 }
 
 Fit probability_fit(const std::vector<FitParameter>& parameters, const Law& probability,

@@ -165,6 +165,8 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
   fmt::print("{} runs done ({} of them before), {} failed; results in {}\n", end.done, end.done_before, end.failed,
              folder.results().string());
   std::fflush(stdout);
+  const bool has_new_runs = end.done > end.done_before || !fs::exists(folder.path / "report.html");
+  if (end.done > 0 && has_new_runs) analyse_command({.folders = {folder.path}});
   return end.failed > 0 ? ExitCode::Failure : ExitCode::Ok;
 }
 

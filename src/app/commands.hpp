@@ -63,17 +63,17 @@ struct CampaignArguments {
   bool retries_failed = false;
   bool scales = false;  ///< of the plan: tell what 10,000 such runs cost
 };
-/// Runs all of a campaign that is not done yet. Fails if a run has failed.
+/// Runs all of a campaign that is not done yet, then analyses it. Fails if a run has failed.
 ExitCode campaign_command(const CampaignArguments& arguments);
 /// Shows the runs of a campaign with their expected time and memory, and runs nothing.
 ExitCode campaign_plan_command(const CampaignArguments& arguments);
 
 struct AnalyseArguments {
-  std::vector<std::filesystem::path> folders;  ///< of campaigns
-  std::filesystem::path out;                   ///< "" = the folder of the first one
-  std::string sieve;                           ///< of the breakage ratio, a length; "" = the diameter over 2^(1/4)
-  double broken = 0.1;                         ///< mass loss from which a particle is broken
-  std::vector<double> normal_speeds;           ///< of the tangential effect [m/s]; empty = 8 and 14
+  std::vector<std::filesystem::path> folders{};  ///< of campaigns
+  std::filesystem::path out{};                   ///< "" = the folder of the first one
+  std::string sieve{};                           ///< of the breakage ratio, a length; "" = the diameter over 2^(1/4)
+  double broken = 0.1;                           ///< mass loss from which a particle is broken
+  std::vector<double> normal_speeds{};           ///< of the tangential effect [m/s]; empty = 8 and 14
 };
 /// Analyses the runs of campaigns: fits, tables, plots, report.html.
 ExitCode analyse_command(const AnalyseArguments& arguments);

@@ -12,6 +12,7 @@
 #include "core/random.hpp"
 #include "io/csv_line.hpp"
 #include "io/csv_table.hpp"
+#include "io/file_output.hpp"
 #include "io/plot.hpp"
 #include "simulation/persistent_arrays.hpp"
 
@@ -114,7 +115,15 @@ RunOutcome run_impact(PreparedRun& run, SessionOptions options, RunLog& log) {
   return run_to_results(run, options, log);
 }
 
+// The whole run's report is that of the first impact, of a particle that was whole, and what became of it.
+void write_whole_report(const RunFolder& folder, const std::vector<ImpactRow>& rows) {
+  auto report = nlohmann::ordered_json::parse(read_text(folder.impact(1).report()));
+  report["impacts"] = {{"count", rows.size()}, {"mass_left", rows.back().mass_after / rows.front().mass_before}};
+  write_text_atomically(folder.report(), report.dump(2) + "\n");
+}
+
 void finish(const std::vector<ImpactRow>& rows, const std::string& name, const SessionOptions& options, RunLog& log) {
+  write_whole_report(options.folder, rows);
   const std::string text = table_of(rows, options.folder.path.string());
   log.note(text);
   if (!options.quiet) fmt::print("\n{}: {} impacts\n{}", name, rows.size(), text);

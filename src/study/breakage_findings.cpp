@@ -38,8 +38,7 @@ Impacts impacts_of(const Study& study, const Series& series, double broken) {
     if (condition.angle != impacts.angle) continue;
     for (const std::size_t i : condition.runs) {
       const StudyRun& run = study.runs[i];
-      const double chipping = run.impacts.empty() ? run.chipping_ratio() : run.impacts.front().chipping_ratio;
-      const bool is_broken = chipping >= broken;
+      const bool is_broken = run.chipping_ratio() >= broken;
       const double energy = 0.5 * run.speed * run.speed;
       impacts.runs.push_back(i);
       impacts.list.push_back({energy, is_broken, run.number("breakage.t10")});

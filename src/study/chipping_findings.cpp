@@ -7,6 +7,7 @@
 #include <set>
 
 #include "analysis/chipping_law.hpp"
+#include "study/condition_plots.hpp"
 #include "study/summary_table.hpp"
 
 namespace knap {
@@ -54,30 +55,34 @@ void add_class_map(Findings& findings, const Study& study, const Series& series,
   findings.sections.push_back(std::move(section));
 }
 
+/// Runs that one law is fitted to.
 struct Part {
-  std::string name;  // of what the law is over
+  std::string name;   // of what the law is over, with unit in brackets left out
+  std::string range;  // which runs
   std::vector<Chipping> runs{};
 };
 
-// Conditions that mostly chip, over the speed at the steepest angle and over the normal velocity at all.
+// "Above the threshold" can be read in two ways, and the exponent depends on it: what mostly chips, and all that loses
+// more than a hundredth on average.
 std::vector<Part> parts_of(const Study& study, const Series& series) {
-  double steepest = 0.0;
-  std::set<double> angles;
+  constexpr double threshold = 0.01;
+  const double steepest = angles_of(series).back();
+  const std::string straight_name = fmt::format("speed at {:.3g}°", steepest / degree);
+  Part chipped{straight_name, "most runs chipped"}, above{straight_name, "mean loss above 1 %"};
+  Part normal{"normal velocity, all angles", "most runs chipped"};
   for (const Condition& condition : series.conditions) {
-    steepest = std::max(steepest, condition.angle);
-    angles.insert(condition.angle);
-  }
-  Part straight{fmt::format("speed at {:.3g}°", steepest / degree)}, normal{"normal velocity, all angles"};
-  for (const Condition& condition : series.conditions) {
-    if (class_of(study, condition) != "chipped") continue;
+    const bool is_chipped = class_of(study, condition) == "chipped";
+    const bool is_above = mean_of(study, condition.runs, "chipping_ratio") >= threshold;
     for (const double ratio : values_of(study, condition, [](const StudyRun& run) { return run.chipping_ratio(); })) {
-      if (condition.angle == steepest) straight.runs.push_back({condition.speed, ratio});
+      if (condition.angle == steepest && is_chipped) chipped.runs.push_back({condition.speed, ratio});
+      if (condition.angle == steepest && is_above) above.runs.push_back({condition.speed, ratio});
       // Conditions of one normal velocity up to rounding are one speed.
-      normal.runs.push_back({std::round(1e4 * condition.speed * std::sin(condition.angle)) / 1e4, ratio});
+      if (is_chipped)
+        normal.runs.push_back({std::round(1e4 * condition.speed * std::sin(condition.angle)) / 1e4, ratio});
     }
   }
-  std::vector<Part> parts{straight};
-  if (angles.size() > 1) parts.push_back(normal);
+  std::vector<Part> parts{chipped, above};
+  if (angles_of(series).size() > 1) parts.push_back(normal);
   return parts;
 }
 
@@ -100,7 +105,7 @@ void draw_law(Findings& findings, PageSection& section, const Part& part, const 
       curve.x.push_back(v), curve.y.push_back(at_middle * std::pow(v / middle, exponent));
     return curve;
   };
-  PlotInput plot{.title = titled("chipping over " + part.name, series),
+  PlotInput plot{.title = titled(fmt::format("chipping over {}, {}", part.name, part.range), series),
                  .x_label = part.name + " [m/s]",
                  .y_label = "chipping ratio [-]",
                  .log_x = true,
@@ -115,12 +120,14 @@ void draw_law(Findings& findings, PageSection& section, const Part& part, const 
 void add_laws(Findings& findings, const Study& study, const Series& series, const std::string& suffix, Json& json) {
   PageSection section{.title = titled("Chipping law", series)};
   section.paragraphs.push_back(
-      "Chipping ratio = C vⁿ, by the logarithms of the means at each speed where most runs are chipped: above the "
-      "threshold (0.1 % lost) and below splitting. The interval is 95 %, by bootstrap over runs.");
+      "Chipping ratio = C vⁿ, by the logarithms of the means at each speed: of the speeds at which most runs are "
+      "chipped "
+      "(one piece holds 75 %), and of all that lose more than 1 % on average. The interval is 95 %, by bootstrap over "
+      "runs.");
   int number = 0;
   for (const Part& part : parts_of(study, series)) {
     ++number;
-    Json& one = json["chipping_law"].emplace_back(Json{{"over", part.name}});
+    Json& one = json["chipping_law"].emplace_back(Json{{"over", part.name}, {"range", part.range}});
     try {
       const ChippingLaw law = fit_chipping_law(part.runs);
       one["exponent"] = law.exponent, one["interval"] = json_of(law.interval), one["factor"] = law.factor;
@@ -138,14 +145,14 @@ void add_laws(Findings& findings, const Study& study, const Series& series, cons
            fmt::format("{} speeds, {:.3g} to {:.3g} m/s; within it of the published: {}", law.num_speeds, law.slowest,
                        law.fastest, agreeing.empty() ? "none" : agreeing)});
       findings.verdicts.push_back(
-          fmt::format("{}: exponent of the {} {}; of the published 2, 2.33, 2.44, 3.17, 4.5 within it: {}.",
-                      titled("Chipping law", series), part.name, shown(law.exponent, law.interval),
+          fmt::format("{}: exponent of the {} ({}) {}; of the published 2, 2.33, 2.44, 3.17, 4.5 within it: {}.",
+                      titled("Chipping law", series), part.name, part.range, shown(law.exponent, law.interval),
                       agreeing.empty() ? "none" : agreeing));
-      draw_law(findings, section, part, law, series,
-               fmt::format("chipping_law{}{}", suffix, number > 1 ? "_normal" : ""));
+      draw_law(findings, section, part, law, series, fmt::format("chipping_law_{}{}", number, suffix));
     } catch (const std::invalid_argument& reason) {
       one["not_fitted"] = reason.what();
-      section.rows.push_back({"exponent over " + part.name, "not fitted", "", reason.what()});
+      section.rows.push_back(
+          {fmt::format("exponent over {}, {}", part.name, part.range), "not fitted", "", reason.what()});
     }
   }
   findings.sections.push_back(std::move(section));

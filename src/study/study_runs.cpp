@@ -140,7 +140,7 @@ StudyRun run_of(const fs::path& folder, const StudyTable& table, const std::vect
   run.diameter = run.number("sanity.diameter");
   run.element_size = run.number("mesh.edge_mean");
   run.impacts = impacts_in(run.folder / "impacts.csv");
-  const fs::path pieces = run.impacts.empty() ? run.folder : run.folder / fmt::format("impact_{}", run.impacts.size());
+  const fs::path pieces = run.impacts.empty() ? run.folder : run.folder / "impact_1";
   run.sizes = sizes_in(pieces / "size_distribution.csv");
   run.shape = shapes_in(pieces / "fragments.csv");
   if (sieve >= run.diameter)

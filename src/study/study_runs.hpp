@@ -35,7 +35,7 @@ struct StudyRun {
   std::map<std::string, double> numbers{};  ///< of results.csv; a cell that is empty is not there
   std::vector<SizeRow> sizes{};             ///< ascending
   ShapeMeans shape{};
-  std::vector<ImpactRow> impacts{};  ///< of a repeated impact
+  std::vector<ImpactRow> impacts{};  ///< of a repeated impact; all else is of the first
   double breakage_ratio = 0.0;       ///< mass fraction that passes the study's sieve
 
   /// NaN if it is not there.

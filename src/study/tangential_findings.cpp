@@ -14,6 +14,9 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// Differences of lost mass that count as none: an intact particle may lose as much.
+constexpr double negligible = 1e-3;
+
 // The mean at a speed between those run, linearly; with which runs of each side, for the bootstrap.
 std::optional<double> at_speed(const Study& study, const std::vector<Condition>& list, const std::string& response,
                                double speed, const std::vector<std::vector<std::size_t>>& runs) {
@@ -98,11 +101,12 @@ void add_tangential(Findings& findings, const Study& study, const Series& series
       for (const Interval& interval : effect.interval)
         points.low.push_back(interval.low), points.high.push_back(interval.high);
       plot.series.push_back(points);
-      const std::string answer = effect.slope_interval.low > 0.0    ? "rises with the tangential velocity"
-                                 : effect.slope_interval.high < 0.0 ? "falls with the tangential velocity"
-                                                                    : "no effect beyond the scatter";
       const double range = *std::max_element(effect.value.begin(), effect.value.end()) -
                            *std::min_element(effect.value.begin(), effect.value.end());
+      const std::string answer = range < negligible                 ? "no effect, below 0.1 % of the mass"
+                                 : effect.slope_interval.low > 0.0  ? "rises with the tangential velocity"
+                                 : effect.slope_interval.high < 0.0 ? "falls with the tangential velocity"
+                                                                    : "no effect beyond the scatter";
       Json one{{"measure", response},
                {"normal_speed", normal},
                {"slope_s_per_m", json_of(effect.slope)},

@@ -1,0 +1,263 @@
+// Studies of campaigns that were made up: runs that follow known laws, of which the study must find the constants.
+#include "study/write_study.hpp"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "analysis/breakage_functions.hpp"
+#include "analysis/equivalent_velocity.hpp"
+#include "core/errors.hpp"
+#include "io/csv_line.hpp"
+#include "study/study_runs.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace knap {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr double degree = std::numbers::pi / 180.0, diameter = 1.5e-3;
+
+class StudyTest : public TemporaryFolder {
+ protected:
+  struct Row {
+    double speed = 0.0, angle = 90.0, friction = 0.3, chipping = 0.0;
+    int seed = 1;
+    std::string mesh = "0.0001";
+  };
+
+  // A run's folder and line; half of what is lost is a big chip of 0.3 d, the rest chips of 0.05 d.
+  void add(const Row& row) {
+    const std::string name = fmt::format("run_{}", ++number_);
+    const fs::path run = campaign() / "runs" / name;
+    fs::create_directories(run);
+    std::ofstream(run / "effective.toml") << fmt::format(
+        "[particle]\ndiameter = {}\n[material]\npreset = \"zeolite_4ak\"\n[impact]\nspeed = {}\nangle = "
+        "{}\nwall_friction = {}\n",
+        diameter, row.speed, row.angle * degree, row.friction);
+    std::ofstream sizes(run / "size_distribution.csv");
+    sizes << "sieve_size [m],finer_mass_fraction [-],finer_count [-]\n";
+    sizes << fmt::format("{},{},9\n{},{},10\n{},1,11\n", 0.05 * diameter, 0.5 * row.chipping, 0.3 * diameter,
+                         row.chipping, diameter * (row.chipping < 0.5 ? 1.0 : 0.7));
+    std::ofstream(run / "fragments.csv")
+        << "id,mass [kg],sphericity [-],elongation [-],flatness [-],convexity [-],resolved\n"
+           "0,1e-6,0.9,0.9,0.9,0.9,1\n1,3e-8,0.6,0.7,0.5,0.8,1\n2,1e-8,0.8,0.5,0.9,0.4,1\n3,1e-9,0.1,0.1,0.1,0.1,0\n";
+    const char* breakage_class = row.chipping < 1e-3 ? "intact" : row.chipping < 0.25 ? "chipped" : "split";
+    lines_ += fmt::format("{},done,,{},{},{},{},{},end time,{},1.5e-3,1e-4,{},{},{},,{}\n", name, row.mesh, row.speed,
+                          row.angle * degree, row.friction, row.seed, row.chipping, breakage_class, 0.5 * row.chipping,
+                          0.5 * row.chipping, 1e-4);
+  }
+  void write() {
+    std::ofstream(campaign() / "results.csv")
+        << "run,state,reason,mesh.element_size [m],impact.speed [m/s],impact.angle [rad],impact.wall_friction "
+           "[-],run.seed,"
+           "stop_reason,breakage.chipping_ratio,sanity.diameter,mesh.edge_mean,breakage.class,breakage.t10,breakage.t4,"
+           "breakage.t25,energy.closure_error\n"
+        << lines_;
+  }
+  // All angles and speeds, on a curve over the equivalent velocity.
+  void add_oblique(double a_mu, double friction = 0.3, double step = 2.0) {
+    for (const double angle : {30.0, 45.0, 60.0, 75.0, 90.0})
+      for (double speed = 8.0; speed <= 30.0; speed += step)
+        for (int seed = 1; seed <= 2; ++seed)
+          for (const char* mesh : {"0.0001", "0.00008"}) {
+            const double v = equivalent_velocity(speed, angle * degree, a_mu);
+            const double noise = 0.01 * std::sin(12.9898 * number_);
+            add({speed, angle, friction, std::max(0.0, BreakageCurve{0.7, 22.0, 6.0}(v) + (v > 12.0 ? noise : 0.0)),
+                 seed, mesh});
+          }
+  }
+  nlohmann::json studied(const StudyOptions& options = {.title = "made up"}) {
+    write();
+    const std::array folders{campaign()};
+    outcome = write_study(folders, folder / "analysis", folder / "report.html", options);
+    return nlohmann::json::parse(read_text(folder / "analysis" / "analysis.json"));
+  }
+  fs::path campaign() const { return folder / "campaign"; }
+
+  StudyOutcome outcome;
+
+ private:
+  int number_ = 0;
+  std::string lines_;
+};
+
+TEST_F(StudyTest, FindsTheEquivalentVelocityThatTheRunsFollow) {
+  add_oblique(0.8);
+  const auto json = studied();
+  const auto& found = json["velocity"][0]["equivalent_velocity"]["chipping_ratio"];
+  EXPECT_NEAR(found["model"]["a_mu"].get<double>(), 0.8, 0.05);
+  EXPECT_NEAR(found["model"]["a_with_known_friction"].get<double>(), 0.8 / 0.3, 0.2);
+  EXPECT_LT(found["model"]["left_out_rms"].get<double>(), 0.5 * found["null"]["left_out_rms"].get<double>());
+  EXPECT_THAT(found["verdict"].get<std::string>(), HasSubstr("beats the normal component"));
+  EXPECT_THAT(outcome.verdicts, testing::Contains(HasSubstr("beats the normal component")));
+  EXPECT_EQ(outcome.runs, 240U);
+  // With more tangential velocity more breaks, where v sin th alone would do nothing.
+  for (const auto& effect : json["velocity"][0]["tangential_effect"])
+    if (effect["normal_speed"] == 14.0) {
+      EXPECT_GT(effect["slope_interval"][0].get<double>(), 0.0);
+      EXPECT_THAT(effect["verdict"].get<std::string>(), HasSubstr("rises"));
+    }
+  // 5 % at 90 deg: 0.7 (1 - exp(-(v/22)^6)) = 0.05 at 22 (0.0741)^(1/6); between speeds 2 m/s apart.
+  for (const auto& threshold : json["velocity"][0]["thresholds"])
+    if (threshold["measure"] == "chipping_ratio" && threshold["level"] == 0.05) {
+      EXPECT_NEAR(threshold["speed"].get<double>(), 22.0 * std::pow(-std::log(1.0 - 0.05 / 0.7), 1.0 / 6.0), 0.3);
+      EXPECT_LT(threshold["interval"][0].get<double>(), threshold["speed"].get<double>());
+    }
+}
+
+TEST_F(StudyTest, SaysWhereTheNormalComponentIsEnough) {
+  add_oblique(0.0);
+  const auto found = studied()["velocity"][0]["equivalent_velocity"]["chipping_ratio"];
+  EXPECT_LT(found["model"]["a_mu_interval"][0].get<double>(), 0.05);
+  EXPECT_THAT(found["verdict"].get<std::string>(), testing::Not(HasSubstr("beats")));
+}
+
+TEST_F(StudyTest, ChecksWallsWithoutFriction) {
+  for (const double angle : {90.0, 30.0})
+    for (int seed = 1; seed <= 3; ++seed)
+      for (const double normal : {14.0, 20.0})
+        add({normal / std::sin(angle * degree), angle, 0.0, normal == 14.0 ? 0.02 : 0.3 + (angle == 30.0 ? 0.004 : 0.0),
+             seed});
+  const auto json = studied()["velocity"][0];
+  EXPECT_FALSE(json.contains("equivalent_velocity"));
+  EXPECT_EQ(json["frictionless_identity"]["pairs"], 6);
+  EXPECT_NEAR(json["frictionless_identity"]["largest_difference"].get<double>(), 0.004, 1e-12);
+  EXPECT_NEAR(json["frictionless_identity"]["equal_to_1e-9"].get<double>(), 0.5, 1e-12);
+}
+
+TEST_F(StudyTest, OneAForWallsOfSeveralFrictions) {
+  add_oblique(0.3, 0.2, 5.5);  // a = 1.5
+  add_oblique(0.75, 0.5, 5.5);
+  const auto json = studied();
+  EXPECT_NEAR(json["one_a_for_all_frictions"]["chipping_ratio"]["a"].get<double>(), 1.5, 0.1);
+  EXPECT_EQ(json["velocity"].size(), 2U);
+}
+
+TEST_F(StudyTest, FindsTheChippingLawAndTheClasses) {
+  for (const double speed : {12.0, 14.0, 16.0, 19.0, 22.0, 26.0, 30.0})
+    for (int seed = 1; seed <= 4; ++seed)
+      add({.speed = speed,
+           .chipping = 4e-3 * std::pow(speed / 12.0, 3.17) * (1.0 + 0.05 * std::sin(7.0 * seed)),
+           .seed = seed});
+  const auto json = studied()["chipping"][0];
+  EXPECT_NEAR(json["chipping_law"][0]["exponent"].get<double>(), 3.17, 0.1);
+  for (const auto& published : json["chipping_law"][0]["published"])
+    EXPECT_EQ(published["within_interval"].get<bool>(), published["exponent"] == 3.17) << published;
+  EXPECT_EQ(json["chipping_law"][1]["slowest"], 16.0);  // 0.4, 0.65 and 1 %
+  EXPECT_EQ(json["class_map"].size(), 7U);
+  EXPECT_EQ(json["class_map"][0]["class"], "chipped");
+}
+
+TEST_F(StudyTest, FitsBreakageFunctionsAndExportsAPopulationBalance) {
+  for (double speed = 10.0; speed <= 28.0; speed += 1.0)
+    for (int seed = 0; seed < 20; ++seed) {
+      const double probability =
+          tavares_probability(0.5 * speed * speed, 180.0, 0.35, std::numeric_limits<double>::infinity());
+      add({.speed = speed, .chipping = (seed + 0.5) / 20.0 < probability ? 0.6 : 0.01, .seed = seed});
+    }
+  const auto json = studied();
+  const auto& fits = json["breakage_functions"][0];
+  EXPECT_NEAR(fits["tavares"]["parameters"]["E50"]["value"].get<double>(), 180.0, 4.0);
+  EXPECT_NEAR(fits["tavares"]["parameters"]["sigma"]["value"].get<double>(), 0.35, 0.03);
+  EXPECT_EQ(fits["tavares"]["covariance"].size(), 2U);
+  // By another law half of them break at nearly the same speed.
+  const auto weibull = fits["weibull_in_speed"]["parameters"];
+  const double median =
+      weibull["v_s"]["value"].get<double>() * std::pow(std::log(2.0), 1.0 / weibull["m"]["value"].get<double>());
+  EXPECT_NEAR(0.5 * median * median, 180.0, 18.0);
+  EXPECT_NEAR(fits["f_mat"]["value"].get<double>() * diameter,
+              fits["vogel_peukert"]["parameters"]["f_x"]["value"].get<double>(), 1e-12);
+  const auto balance = nlohmann::json::parse(read_text(folder / "analysis" / "population_balance.json"));
+  const std::size_t n = balance["sizes"].size();
+  ASSERT_GT(n, 4U);
+  for (std::size_t j = 0; j < n; ++j) {  // what breaks goes somewhere, and nothing grows
+    double sum = 0.0;
+    for (std::size_t i = 0; i < n; ++i) {
+      sum += balance["breakage"][i][j].get<double>();
+      if (i < j) {
+        EXPECT_EQ(balance["breakage"][i][j], 0.0);
+      }
+    }
+    EXPECT_NEAR(sum, 1.0, 1e-12);
+  }
+  EXPECT_LT(balance["mass_error_of_one_step"].get<double>(), 1e-12);
+  for (const char* file : {"selection.csv", "breakage.csv", "breakage_probability.svg", "breakage_probability.png"})
+    EXPECT_TRUE(fs::exists(folder / "analysis" / file)) << file;
+}
+
+TEST_F(StudyTest, SpreadsAreOfMeshesAndOfSeeds) {
+  add({.speed = 20.0, .chipping = 0.10, .seed = 1, .mesh = "0.0001"});
+  add({.speed = 20.0, .chipping = 0.14, .seed = 2, .mesh = "0.0001"});
+  add({.speed = 20.0, .chipping = 0.20, .seed = 1, .mesh = "0.00008"});
+  add({.speed = 20.0, .chipping = 0.24, .seed = 2, .mesh = "0.00008"});
+  studied();
+  std::ifstream file(folder / "analysis" / "summary.csv");
+  bool found = false;
+  for (std::string line; std::getline(file, line);) {
+    const auto cells = csv_cells(line);
+    if (cells[4] == "t25") {
+      EXPECT_EQ(cells[7], "");  // not resolved
+    }
+    if (cells[4] == "sphericity") {
+      EXPECT_NEAR(std::stod(cells[7]), (3.0 * 0.6 + 0.8) / 4.0, 1e-12);  // by mass, resolved
+    }
+    if (cells[4] != "chipping_ratio") continue;
+    found = true;
+    EXPECT_EQ(cells[6], "4");
+    EXPECT_NEAR(std::stod(cells[7]), 0.17, 1e-12);
+    EXPECT_NEAR(std::stod(cells[9]), 0.10 / std::sqrt(2.0), 1e-12);   // of 0.12 and 0.22
+    EXPECT_NEAR(std::stod(cells[10]), 0.04 / std::sqrt(2.0), 1e-12);  // of 0.10 and 0.14
+    EXPECT_GE(std::stod(cells[11]), 0.10);
+    EXPECT_LE(std::stod(cells[12]), 0.24);
+  }
+  EXPECT_TRUE(found);
+}
+
+TEST_F(StudyTest, TheSieveDecidesTheBreakageRatio) {
+  add({.speed = 20.0, .chipping = 0.2});
+  write();
+  const std::array folders{campaign()};
+  EXPECT_NEAR(read_study(folders, 0.0).runs[0].breakage_ratio, 0.2, 1e-12);
+  EXPECT_NEAR(read_study(folders, 0.1 * diameter).runs[0].breakage_ratio, 0.1, 1e-12);
+  EXPECT_THROW(read_study(folders, diameter), InputError);
+}
+
+TEST_F(StudyTest, ReportIsThere) {
+  add({.speed = 20.0, .chipping = 0.2});
+  studied();
+  const std::string page = read_text(folder / "report.html");
+  EXPECT_THAT(page, HasSubstr("made up"));
+  EXPECT_THAT(page, HasSubstr("run_1"));
+}
+
+TEST_F(StudyTest, RefusesWhatIsNoCampaign) {
+  const auto said = [&] {
+    const std::array folders{campaign()};
+    try {
+      read_study(folders, 0.0);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  fs::create_directories(campaign());
+  EXPECT_THAT(said(), HasSubstr("holds no results.csv"));
+  std::ofstream(campaign() / "results.csv") << "x,y\n1,2\n";
+  EXPECT_THAT(said(), HasSubstr("is not a campaign's table"));
+  std::ofstream(campaign() / "results.csv") << "run,state,reason\na,waiting,\n";
+  EXPECT_THAT(said(), HasSubstr("no run is done yet"));
+  std::ofstream(campaign() / "results.csv") << "run,state,reason\na,waiting\n";
+  EXPECT_THAT(said(), HasSubstr("results.csv:2: 2 cells, the header has 3"));
+}
+
+}  // namespace
+}  // namespace knap
