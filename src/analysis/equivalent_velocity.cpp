@@ -15,12 +15,18 @@ using Impacts = std::vector<ObliqueImpact>;
 struct Model {
   FrictionRule rule = FrictionRule::FreeProduct;
   bool has_friction_term = true;
+  BreakageScale breakage_scale = BreakageScale::Plain;
 
   double velocity(const ObliqueImpact& impact, double value) const {
     const double factor = rule == FrictionRule::KnownFriction ? impact.friction : 1.0;
     return equivalent_velocity(impact.speed, impact.angle, has_friction_term ? value * factor : 0.0);
   }
 };
+
+double scaled(const Model& model, double breakage) {
+  if (model.breakage_scale == BreakageScale::Plain) return breakage;
+  return std::asin(std::sqrt(std::clamp(breakage, 0.0, 1.0)));
+}
 
 // The term of friction last, where there is one.
 std::vector<FitParameter> parameters_of(const Model& model, std::span<const ObliqueImpact> impacts) {
@@ -44,7 +50,7 @@ BreakageCurve curve_of(std::span<const double> values) { return {values[0], valu
 
 // Impacts alike as their mean: the sum of squares is the same but for a constant, and is found sooner.
 struct Means {
-  Impacts impacts{};            // with the mean breakage
+  Impacts impacts{};            // with the mean breakage, scaled
   std::vector<double> roots{};  // of their number
 };
 
@@ -57,12 +63,13 @@ std::vector<std::vector<std::size_t>> groups_of(std::span<const ObliqueImpact> i
   return list;
 }
 
-Means means_of(std::span<const ObliqueImpact> impacts) {
+Means means_of(const Model& model, std::span<const ObliqueImpact> impacts) {
   Means means;
   for (const auto& group : groups_of(impacts)) {
     ObliqueImpact middle = impacts[group.front()];
     middle.breakage = 0.0;
-    for (const std::size_t i : group) middle.breakage += impacts[i].breakage / static_cast<double>(group.size());
+    for (const std::size_t i : group)
+      middle.breakage += scaled(model, impacts[i].breakage) / static_cast<double>(group.size());
     means.impacts.push_back(middle);
     means.roots.push_back(std::sqrt(static_cast<double>(group.size())));
   }
@@ -72,7 +79,8 @@ Means means_of(std::span<const ObliqueImpact> impacts) {
 // Weighted law and data over `means`, which must outlive them.
 Law law_of(const Model& model, const Means& means) {
   return [&means, model](std::span<const double> values, std::size_t i) {
-    return means.roots[i] * curve_of(values)(model.velocity(means.impacts[i], values.size() > 3 ? values[3] : 0.0));
+    return means.roots[i] *
+           scaled(model, curve_of(values)(model.velocity(means.impacts[i], values.size() > 3 ? values[3] : 0.0)));
   };
 }
 
@@ -83,14 +91,15 @@ std::vector<double> breakage_of(const Means& means) {
 }
 
 std::vector<double> refitted(const Model& model, const Impacts& impacts, const std::vector<double>& guess) {
-  const Means means = means_of(impacts);
+  const Means means = means_of(model, impacts);
   return refit(parameters_of(model, impacts), law_of(model, means), breakage_of(means), guess);
 }
 
 double rms_of(const Model& model, const Impacts& impacts, std::span<const double> values) {
   double squares = 0.0;
   for (const ObliqueImpact& impact : impacts) {
-    const double miss = curve_of(values)(model.velocity(impact, values.size() > 3 ? values[3] : 0.0)) - impact.breakage;
+    const double at = curve_of(values)(model.velocity(impact, values.size() > 3 ? values[3] : 0.0));
+    const double miss = scaled(model, at) - scaled(model, impact.breakage);
     squares += miss * miss;
   }
   return std::sqrt(squares / static_cast<double>(impacts.size()));
@@ -108,7 +117,7 @@ std::vector<double> left_out(const Model& model, const Impacts& impacts, const s
 }
 
 Collapse collapse_of(const Model& model, const Impacts& impacts, std::vector<double>& values) {
-  const Means means = means_of(impacts);
+  const Means means = means_of(model, impacts);
   const Fit fit = least_squares_fit(parameters_of(model, impacts), law_of(model, means), breakage_of(means));
   values = fit.values;
   Collapse collapse{.curve = curve_of(values), .rms = rms_of(model, impacts, values)};
@@ -118,11 +127,11 @@ Collapse collapse_of(const Model& model, const Impacts& impacts, std::vector<dou
   return collapse;
 }
 
-double scatter_of(std::span<const ObliqueImpact> impacts) {
+double scatter_of(const Model& model, std::span<const ObliqueImpact> impacts) {
   double squares = 0.0;
   for (const auto& group : groups_of(impacts)) {
     std::vector<double> values;
-    for (const std::size_t i : group) values.push_back(impacts[i].breakage);
+    for (const std::size_t i : group) values.push_back(scaled(model, impacts[i].breakage));
     const double middle = mean(values);
     for (const double value : values) squares += (value - middle) * (value - middle);
   }
@@ -153,17 +162,18 @@ std::vector<double> angles(std::span<const ObliqueImpact> impacts) {
   return list;
 }
 
-CollapseComparison compare_collapse(std::span<const ObliqueImpact> impacts, FrictionRule rule, int samples) {
+CollapseComparison compare_collapse(std::span<const ObliqueImpact> impacts, FrictionRule rule, BreakageScale scale,
+                                    int samples) {
   if (angles(impacts).size() < 3 || impacts.size() < 10)
     throw std::invalid_argument("equivalent velocity: needs at least three angles and ten impacts");
   const bool has_friction = std::any_of(impacts.begin(), impacts.end(), [](const auto& i) { return i.friction > 0.0; });
   if (!has_friction) throw std::invalid_argument("equivalent velocity: no wall has friction");
-  const Model model{rule, true}, null{rule, false};
+  const Model model{rule, true, scale}, null{rule, false, scale};
   const Impacts all(impacts.begin(), impacts.end());
   std::vector<double> model_values, null_values;
   CollapseComparison result{.model = collapse_of(model, all, model_values),
                             .null = collapse_of(null, all, null_values),
-                            .scatter = scatter_of(impacts)};
+                            .scatter = scatter_of(model, impacts)};
   std::vector<double> values, gains;
   for (const auto& pick : bootstrap_picks(groups_of(impacts), samples)) {
     Impacts drawn;

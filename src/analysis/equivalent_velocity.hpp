@@ -32,12 +32,16 @@ struct BreakageCurve {
 /// How the friction enters: a product a mu for all (free), or one a times each run's own mu.
 enum class FrictionRule { FreeProduct, KnownFriction };
 
+/// On which scale runs and curve are compared: as they are, or as asin(sqrt(b)), on which shares scatter alike whether
+/// few or many break (Bartlett 1947): the runs near the threshold then count as much as those far above it.
+enum class BreakageScale { Plain, Stabilised };
+
 struct Collapse {
   double value = 0.0;      ///< a mu, or a
   Interval interval{};     ///< 95 %, bootstrap over the runs of each speed and angle
   bool is_at_end = false;  ///< 0, or a mu = 1
   BreakageCurve curve{};
-  double rms = 0.0;                         ///< of runs about the curve
+  double rms = 0.0;                         ///< of runs about the curve, on the scale of the comparison
   double left_out_rms = 0.0;                ///< mean of each angle's runs about the curve of the other angles
   std::vector<double> left_out_by_angle{};  ///< rms, in the order of angles()
 };
@@ -58,6 +62,7 @@ std::vector<double> angles(std::span<const ObliqueImpact> impacts);
 
 /// Fits both. Throws std::invalid_argument for fewer than three angles or ten impacts, or
 /// where no wall has friction.
-CollapseComparison compare_collapse(std::span<const ObliqueImpact> impacts, FrictionRule rule, int samples = 300);
+CollapseComparison compare_collapse(std::span<const ObliqueImpact> impacts, FrictionRule rule,
+                                    BreakageScale scale = BreakageScale::Plain, int samples = 300);
 
 }  // namespace knap

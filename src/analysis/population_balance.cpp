@@ -1,5 +1,6 @@
 #include "analysis/population_balance.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace knap {
@@ -15,6 +16,26 @@ Fit fit_breakage_distribution(std::span<const double> z, std::span<const double>
   return least_squares_fit(
       {{"q", "-", 0.01, 10.0, true}, {"r", "-", 0.02, 20.0, true}},
       [&](std::span<const double> p, std::size_t i) { return breakage_distribution(z[i], p[0], p[1]); }, finer);
+}
+
+double austin_distribution(double z, double phi, double g, double b) {
+  if (z <= 0.0) return 0.0;
+  return z >= 1.0 ? 1.0 : phi * std::pow(z, g) + (1.0 - phi) * std::pow(z, b);
+}
+
+Fit fit_austin(std::span<const double> z, std::span<const double> finer) {
+  return least_squares_fit(
+      {{"phi", "-", 0.0, 1.0}, {"g", "-", 0.02, 3.0, true}, {"b", "-", 0.5, 50.0, true}},
+      [&](std::span<const double> p, std::size_t i) { return austin_distribution(z[i], p[0], p[1], p[2]); }, finer);
+}
+
+double measured_distribution(double z, std::span<const double> at, std::span<const double> finer) {
+  if (z <= 0.0) return 0.0;
+  if (z >= 1.0) return 1.0;
+  const auto above = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), z) - at.begin());
+  const std::size_t i = std::clamp<std::size_t>(above, 1, at.size() - 1);
+  const double slope = std::log(finer[i] / finer[i - 1]) / std::log(at[i] / at[i - 1]);
+  return std::min(1.0, finer[i - 1] * std::pow(z / at[i - 1], slope));
 }
 
 Eigen::MatrixXd breakage_matrix(const SizeClasses& classes, const std::function<double(double z)>& distribution) {

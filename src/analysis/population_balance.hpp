@@ -14,6 +14,14 @@ double breakage_distribution(double z, double q, double r);
 /// "q" and "r" by least squares of B over z = x/y, 0 < z <= 1.
 Fit fit_breakage_distribution(std::span<const double> z, std::span<const double> finer);
 
+/// B = phi z^g + (1 - phi) z^b (Austin, Klimpel & Luckie 1984): "phi", "g" of the fines, "b" of the coarse pieces.
+Fit fit_austin(std::span<const double> z, std::span<const double> finer);
+double austin_distribution(double z, double phi, double g, double b);
+
+/// Between measured points of B over z, ascending in z, by straight lines of the logarithms; below the least by the
+/// power law of the two least. 1 from z = 1 on.
+double measured_distribution(double z, std::span<const double> at, std::span<const double> finer);
+
 /// Classes of size, the coarsest first: class i holds what passes edges[i] and not edges[i + 1]; the last one, the pan,
 /// all that passes the last edge.
 struct SizeClasses {

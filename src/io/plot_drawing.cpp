@@ -285,8 +285,10 @@ void draw(cairo_t* page, const PlotInput& input) {
   for (const std::string& label : d.y_axis.labels) widest = std::max(widest, width_of(page, label));
   d.frame = {.left = 34.0 + text_size + widest, .top = 54.0, .right = plot_width - 36.0, .bottom = plot_height - 82.0};
   const Legend legend = legend_of(d);
-  if (!legend.series.empty() && place_of(legend, d).second > 0)  // no corner is free: the axis grows to make room
-    d.y_axis.high += (legend.height + 30.0) / (d.frame.bottom - d.frame.top) * (d.y_axis.high - d.y_axis.low);
+  if (!legend.series.empty() && place_of(legend, d).second > 0) {  // no corner is free: the axis grows to make room
+    const double height = d.frame.bottom - d.frame.top, room = std::min(legend.height + 40.0, 0.6 * height);
+    d.y_axis.high += room / (height - room) * (d.y_axis.high - d.y_axis.low);
+  }
   draw_axes(d);
   cairo_save(page);
   cairo_rectangle(page, d.frame.left, d.frame.top, d.frame.right - d.frame.left, d.frame.bottom - d.frame.top);

@@ -83,6 +83,10 @@ void add_thresholds(Findings& findings, const Study& study, const Series& series
                                     {"angle_deg", steepest / degree},
                                     {"speed", json_of(speed)},
                                     {"interval", json_of(interval)}});
+      if (level == 0.01 && response == std::string("chipping_ratio") && std::isfinite(speed))
+        findings.verdicts.push_back(fmt::format("{}: at {:.3g}° the mean loss reaches 1 % at {} m/s.",
+                                                titled("Threshold", series), steepest / degree,
+                                                shown(speed, interval)));
       section.rows.push_back({fmt::format("{} reaches {:g} at {:.3g}°", words(response), level, steepest / degree),
                               std::isfinite(speed) ? fmt::format("{:.3g} m/s", speed) : "not reached", shown(interval),
                               speed == list.front().speed ? "already at the slowest speed" : ""});

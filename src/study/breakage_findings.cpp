@@ -227,7 +227,7 @@ struct Measured {
   double floor = 0.0;
 };
 
-Measured measured_distribution(const Study& study, const Impacts& impacts) {
+Measured measured_over_size(const Study& study, const Impacts& impacts) {
   std::vector<std::size_t> broken;
   for (std::size_t k = 0; k < impacts.runs.size(); ++k)
     if (impacts.outcomes[k]) broken.push_back(impacts.runs[k]);
@@ -242,19 +242,33 @@ Measured measured_distribution(const Study& study, const Impacts& impacts) {
 
 void export_balance(Findings& findings, PageSection& section, const Series& series, const Study& study,
                     const Impacts& impacts, const Fits& fits, const std::string& suffix, Json& json) {
-  const Measured measured = measured_distribution(study, impacts);
+  const Measured measured = measured_over_size(study, impacts);
   if (measured.z.size() < 4 || !fits.vogel) {
     section.paragraphs.push_back("No population balance is exported: no particle broke.");
     return;
   }
-  const Fit fit = fit_breakage_distribution(measured.z, measured.finer);
-  add_rows(section, "B(x|y)", fit);
-  json["breakage_distribution"] = json_of(fit);
-  const double q = fit.value("q"), r = fit.value("r");
+  const Fit fit = fit_breakage_distribution(measured.z, measured.finer),
+            austin = fit_austin(measured.z, measured.finer);
+  add_rows(section, "B(x|y), tanh", fit);
+  add_rows(section, "B(x|y), two terms", austin);
+  const auto rms = [&](const Fit& of) { return std::sqrt(of.loss / static_cast<double>(of.num_data)); };
+  section.rows.push_back({"B(x|y): rms of the fits, tanh and two terms",
+                          fmt::format("{:.2g}, {:.2g}", rms(fit), rms(austin)), "",
+                          "the matrix is of the measured distribution itself"});
+  json["breakage_distribution"] = json_of(fit), json["breakage_distribution"]["rms"] = rms(fit);
+  json["breakage_distribution_two_terms"] = json_of(austin),
+  json["breakage_distribution_two_terms"]["rms"] = rms(austin);
+  const auto tanh_law = [&](double z) { return breakage_distribution(z, fit.value("q"), fit.value("r")); };
+  const auto two_terms = [&](double z) {
+    return austin_distribution(z, austin.value("phi"), austin.value("g"), austin.value("b"));
+  };
+  const std::vector<double> at(measured.z.rbegin(), measured.z.rend()),
+      finer(measured.finer.rbegin(), measured.finer.rend());
   const double diameter = study.runs[impacts.runs.front()].diameter;
   SizeClasses classes;
   for (const double z : measured.z) classes.edges.push_back(z * diameter);
-  const Eigen::MatrixXd breakage = breakage_matrix(classes, [&](double z) { return breakage_distribution(z, q, r); });
+  const Eigen::MatrixXd breakage =
+      breakage_matrix(classes, [&](double z) { return measured_distribution(z, at, finer); });
   // Selection of each class for a row of energies: f_mat and x W_min are the material's.
   constexpr int num_energies = 25;
   std::vector<std::vector<double>> selection_rows, breakage_rows;
@@ -294,6 +308,15 @@ void export_balance(Findings& findings, PageSection& section, const Series& seri
   }
   write_table(findings.folder / ("selection" + suffix + ".csv"), selection_columns, selection_rows);
   write_table(findings.folder / ("breakage" + suffix + ".csv"), breakage_columns, breakage_rows);
+  const Json laws{{{"law", "B = (x/y)^q (1 + tanh((x - x')/x')) over its value at x = y, x' = r y"},
+                   {"q", fit.value("q")},
+                   {"r", fit.value("r")},
+                   {"rms", rms(fit)}},
+                  {{"law", "B = phi (x/y)^g + (1 - phi) (x/y)^b (Austin, Klimpel & Luckie 1984)"},
+                   {"phi", austin.value("phi")},
+                   {"g", austin.value("g")},
+                   {"b", austin.value("b")},
+                   {"rms", rms(austin)}}};
   const Json balance{
       {"units",
        {{"size", "m"},
@@ -309,8 +332,8 @@ void export_balance(Findings& findings, PageSection& section, const Series& seri
        {{"law", "S = 1 - exp(-f_mat x (W - W_min)), x W_min constant (Vogel & Peukert 2003)"},
         {"f_mat_kg_per_J_m", fits.vogel->value("f_x") / diameter},
         {"x_W_min_J_m_per_kg", fits.vogel->value("W_min") * diameter}}},
-      {"breakage_law",
-       {{"law", "B = (x/y)^q (1 + tanh((x - x')/x')) over its value at x = y, x' = r y"}, {"q", q}, {"r", r}}},
+      {"breakage_is", "the mean of the broken particles, between sieves by straight lines of the logarithms"},
+      {"breakage_laws", laws},
       {"assumption", "particles of all sizes break alike: only one size was run"},
       {"mass_error_of_one_step", worst}};
   write_text_atomically(findings.folder / ("population_balance" + suffix + ".json"), balance.dump(1) + "\n");
@@ -322,8 +345,7 @@ void export_balance(Findings& findings, PageSection& section, const Series& seri
   PlotInput plot{.title = titled("breakage distribution", series),
                  .x_label = "size over the particle's [-]",
                  .y_label = "B(x|y) [-]"};
-  plot.series = {points, curve_of(
-                             "fit", 1.0, [&](double z) { return breakage_distribution(z, q, r); }, 1)};
+  plot.series = {points, curve_of("tanh", 1.0, tanh_law, 1), curve_of("two terms", 1.0, two_terms, 2)};
   plot.marks.push_back({measured.floor, "resolution floor"});
   add_figure(findings, section, "breakage_distribution" + suffix, plot, "");
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <set>
 
 #include "analysis/equivalent_velocity.hpp"
@@ -73,60 +72,72 @@ void draw_collapse(Findings& findings, PageSection& section, const Study& study,
   add_figure(findings, section, stem + "_residuals", residuals, "");
 }
 
+// One fit, as rows, numbers and a sentence.
+void tell(Findings& findings, PageSection& section, const Series& series, const std::string& name,
+          const CollapseComparison& found, Json& json) {
+  const double friction = series.conditions.front().friction;
+  const Interval a{found.model.interval.low / friction, found.model.interval.high / friction};
+  std::vector<double> list = angles_of(series);
+  Json model = collapse_json(found.model, list);
+  model["a_mu"] = found.model.value;
+  model["a_mu_interval"] = json_of(found.model.interval);
+  model["a_mu_at_end_of_range"] = found.model.is_at_end;
+  model["a_with_known_friction"] = found.model.value / friction;
+  model["a_interval"] = json_of(a);
+  model["wall_friction"] = friction;
+  const std::string answer = sentence(verdict(found));
+  json = {{"model", model},
+          {"null", collapse_json(found.null, list)},
+          {"gain_of_left_out_rms", json_of(found.gain)},
+          {"scatter_of_runs", found.scatter},
+          {"verdict", answer}};
+  const auto add = [&](const std::string& what, const std::string& value, const std::string& interval,
+                       const std::string& remark) {
+    section.rows.push_back({name + ": " + what, value, interval, remark});
+  };
+  add("a μ", shown(found.model.value), shown(found.model.interval),
+      found.model.is_at_end ? "at the end of its range" : "");
+  add(fmt::format("a, for the case's μ = {:g}", friction), shown(found.model.value / friction), shown(a), "");
+  add("left-out error of v_eq", fmt::format("{:.4f}", found.model.left_out_rms), "", "");
+  add("left-out error of v sin θ", fmt::format("{:.4f}", found.null.left_out_rms), "", "");
+  add("gain", fmt::format("{:.4f}", found.null.left_out_rms - found.model.left_out_rms), shown(found.gain), answer);
+  add("scatter of runs alike", fmt::format("{:.4f}", found.scatter), "", "what no curve can beat");
+  findings.verdicts.push_back(
+      fmt::format("{}: by the {}, {} (error on an angle left out {:.3f} against {:.3f}; a μ = {}).",
+                  titled("Equivalent velocity", series), name, answer, found.model.left_out_rms,
+                  found.null.left_out_rms, shown(found.model.value, found.model.interval)));
+}
+
 }  // namespace
 
 void add_collapse(Findings& findings, const Study& study, const Series& series, const std::string& suffix, Json& json) {
   PageSection section{.title = titled("Equivalent velocity", series)};
   section.paragraphs.push_back(
       "v_eq = v sin θ √(1 + (a μ cos θ)²) (Wang et al. 2019), with a μ ≤ 1: beyond it v_eq does not rise with the "
-      "angle. "
-      "The null rule takes the normal component v sin θ alone. Both are judged by leaving out each angle in turn: the "
-      "rms distance of its runs from the curve b(1 − exp(−(v/v₀)ⁿ)) of the other angles, mean over angles.");
+      "angle. The null rule takes the normal component v sin θ alone. Both are judged by leaving out each angle in "
+      "turn: "
+      "the rms distance of its runs from the curve b(1 − exp(−(v/v₀)ⁿ)) of the other angles, mean over angles. On the "
+      "plain scale the large scatter far above the threshold decides; on the stabilised one, asin √b, all speeds count "
+      "alike.");
   for (const std::string response : responses) {
     const std::vector<ObliqueImpact> impacts = impacts_of(study, series, response);
-    std::optional<CollapseComparison> free;
-    try {
-      free = compare_collapse(impacts, FrictionRule::FreeProduct);
-    } catch (const std::invalid_argument& reason) {
-      json["equivalent_velocity"][response] = {{"not_fitted", reason.what()}};
-      section.paragraphs.push_back(words(response) + ": not fitted, " + reason.what() + ".");
-      continue;
+    for (const BreakageScale scale : {BreakageScale::Plain, BreakageScale::Stabilised}) {
+      const bool is_plain = scale == BreakageScale::Plain;
+      const std::string key = is_plain ? response : response + "_stabilised";
+      const std::string name = is_plain ? words(response) : words(response) + ", stabilised";
+      try {
+        const CollapseComparison found = compare_collapse(impacts, FrictionRule::FreeProduct, scale);
+        tell(findings, section, series, name, found, json["equivalent_velocity"][key]);
+        if (!is_plain) continue;
+        draw_collapse(findings, section, study, series, response, found.model, found.model.value, "equivalent velocity",
+                      fmt::format("collapse_{}{}", response, suffix));
+        draw_collapse(findings, section, study, series, response, found.null, 0.0, "normal velocity",
+                      fmt::format("collapse_null_{}{}", response, suffix));
+      } catch (const std::invalid_argument& reason) {
+        json["equivalent_velocity"][key] = {{"not_fitted", reason.what()}};
+        section.paragraphs.push_back(name + ": not fitted, " + reason.what() + ".");
+      }
     }
-    const double friction = series.conditions.front().friction;
-    const CollapseVerdict answer = verdict(*free);
-    const std::vector<double> list = angles(impacts);
-    Json fit = collapse_json(free->model, list);
-    fit["a_mu"] = free->model.value;
-    fit["a_mu_interval"] = json_of(free->model.interval);
-    fit["a_mu_at_end_of_range"] = free->model.is_at_end;
-    fit["a_with_known_friction"] = free->model.value / friction;
-    fit["a_interval"] = json_of(Interval{free->model.interval.low / friction, free->model.interval.high / friction});
-    fit["wall_friction"] = friction;
-    json["equivalent_velocity"][response] = {{"model", fit},
-                                             {"null", collapse_json(free->null, list)},
-                                             {"gain_of_left_out_rms", json_of(free->gain)},
-                                             {"scatter_of_runs", free->scatter},
-                                             {"verdict", sentence(answer)}};
-    const std::string of = words(response) + ": ";
-    section.rows.push_back({of + "a μ", fmt::format("{:.3g}", free->model.value), shown(free->model.interval),
-                            free->model.is_at_end ? "at the end of its range" : ""});
-    section.rows.push_back(
-        {of + fmt::format("a, for the case's μ = {:g}", friction), fmt::format("{:.3g}", free->model.value / friction),
-         shown(Interval{free->model.interval.low / friction, free->model.interval.high / friction}), ""});
-    section.rows.push_back({of + "left-out error of v_eq", fmt::format("{:.4f}", free->model.left_out_rms), "", ""});
-    section.rows.push_back({of + "left-out error of v sin θ", fmt::format("{:.4f}", free->null.left_out_rms), "", ""});
-    section.rows.push_back({of + "gain", fmt::format("{:.4f}", free->null.left_out_rms - free->model.left_out_rms),
-                            shown(free->gain), sentence(answer)});
-    section.rows.push_back(
-        {of + "scatter of runs alike", fmt::format("{:.4f}", free->scatter), "", "what no curve can beat"});
-    findings.verdicts.push_back(
-        fmt::format("{}: by the {}, {} (error on an angle left out {:.3f} against {:.3f}; a μ = {}).",
-                    titled("Equivalent velocity", series), words(response), sentence(answer), free->model.left_out_rms,
-                    free->null.left_out_rms, shown(free->model.value, free->model.interval)));
-    draw_collapse(findings, section, study, series, response, free->model, free->model.value, "equivalent velocity",
-                  fmt::format("collapse_{}{}", response, suffix));
-    draw_collapse(findings, section, study, series, response, free->null, 0.0, "normal velocity",
-                  fmt::format("collapse_null_{}{}", response, suffix));
   }
   findings.sections.push_back(std::move(section));
 }

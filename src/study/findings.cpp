@@ -27,9 +27,13 @@ std::string titled(const std::string& title, const Series& series) {
   return series.name.empty() ? title : fmt::format("{} ({})", title, series.name);
 }
 
-std::string shown(double value) { return std::isfinite(value) ? fmt::format("{:.3g}", value) : "not resolved"; }
+std::string shown(double value) {
+  constexpr double round_off = 1e-6;  // of fitted values that are as good as zero
+  if (!std::isfinite(value)) return "not resolved";
+  return std::abs(value) < round_off ? "0" : fmt::format("{:.3g}", value);
+}
 std::string shown(const Interval& interval) {
-  return std::isfinite(interval.low) ? fmt::format("[{:.3g}, {:.3g}]", interval.low, interval.high) : "";
+  return std::isfinite(interval.low) ? fmt::format("[{}, {}]", shown(interval.low), shown(interval.high)) : "";
 }
 std::string shown(double value, const Interval& interval) {
   const std::string ends = shown(interval);

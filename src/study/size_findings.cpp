@@ -15,7 +15,8 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 // Sieves are told over the particle's diameter.
-constexpr double largest_sieve = 1.0, smallest_sieve = 0.02;
+constexpr double largest_sieve = 1.1892071150027210;  // 2^(1/4): the whole particle passes it
+constexpr double smallest_sieve = 0.02;
 
 // Of what is finer than most of the largest pieces and coarser than the floor.
 void fit_laws(const Study& study, const Condition& condition, const std::vector<double>& sieves,

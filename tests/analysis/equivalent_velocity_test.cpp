@@ -43,7 +43,7 @@ TEST(EquivalentVelocity, HasItsLimits) {
 
 TEST(EquivalentVelocity, IsFoundInDataThatFollowIt) {
   const auto impacts = made(0.7, 0.02);
-  const CollapseComparison result = compare_collapse(impacts, FrictionRule::FreeProduct, 100);
+  const CollapseComparison result = compare_collapse(impacts, FrictionRule::FreeProduct, BreakageScale::Plain, 100);
   EXPECT_NEAR(result.model.value, 0.7, 0.04);
   EXPECT_TRUE(result.model.interval.contains(0.7));
   EXPECT_LT(result.model.interval.high - result.model.interval.low, 0.2);
@@ -54,13 +54,22 @@ TEST(EquivalentVelocity, IsFoundInDataThatFollowIt) {
   EXPECT_NEAR(result.scatter, 0.02 * std::sqrt(0.5 * 2.0 / 3.0), 0.004);
 }
 
+TEST(EquivalentVelocity, IsFoundOnTheStabilisedScaleToo) {
+  const CollapseComparison result =
+      compare_collapse(made(0.7, 0.01), FrictionRule::FreeProduct, BreakageScale::Stabilised, 50);
+  EXPECT_NEAR(result.model.value, 0.7, 0.08);
+  EXPECT_EQ(verdict(result), CollapseVerdict::Beats);
+}
+
 TEST(EquivalentVelocity, KnownFrictionGivesTheFactor) {
-  const CollapseComparison result = compare_collapse(made(0.6, 0.01), FrictionRule::KnownFriction, 50);
+  const CollapseComparison result =
+      compare_collapse(made(0.6, 0.01), FrictionRule::KnownFriction, BreakageScale::Plain, 50);
   EXPECT_NEAR(result.model.value, 2.0, 0.1);  // 0.6/0.3
 }
 
 TEST(EquivalentVelocity, DoesNotBeatTheNullWhereOnlyTheNormalPartCounts) {
-  const CollapseComparison result = compare_collapse(made(0.0, 0.03), FrictionRule::FreeProduct, 100);
+  const CollapseComparison result =
+      compare_collapse(made(0.0, 0.03), FrictionRule::FreeProduct, BreakageScale::Plain, 100);
   EXPECT_LT(result.model.value, 0.2);
   EXPECT_LT(result.model.interval.low, 0.02);
   EXPECT_NE(verdict(result), CollapseVerdict::Beats);
@@ -70,7 +79,7 @@ TEST(EquivalentVelocity, StopsAtAMuOfOne) {
   std::vector<ObliqueImpact> impacts = made(1.0, 0.0);
   for (ObliqueImpact& impact : impacts)  // breaks even more under flat angles
     impact.breakage = BreakageCurve{0.6, 22.0, 5.0}(equivalent_velocity(impact.speed, impact.angle, 1.6));
-  const CollapseComparison result = compare_collapse(impacts, FrictionRule::FreeProduct, 20);
+  const CollapseComparison result = compare_collapse(impacts, FrictionRule::FreeProduct, BreakageScale::Plain, 20);
   EXPECT_TRUE(result.model.is_at_end);
   EXPECT_NEAR(result.model.value, 1.0, 1e-3);
 }

@@ -40,6 +40,26 @@ TEST(PopulationBalance, AStepConservesMass) {
   EXPECT_NEAR(after[0], 0.1 + 0.9 * (1.0 - breakage_distribution(0.5, 0.8, 0.4)), 1e-14);
 }
 
+TEST(PopulationBalance, MeasuredPointsAreJoinedByPowers) {
+  const std::vector<double> at{0.1, 0.2, 0.8, 1.0}, finer{0.1, 0.2, 0.4, 1.0};
+  EXPECT_NEAR(measured_distribution(0.15, at, finer), 0.15, 1e-12);
+  EXPECT_NEAR(measured_distribution(0.4, at, finer), 0.2 * std::sqrt(2.0), 1e-12);
+  EXPECT_NEAR(measured_distribution(0.05, at, finer), 0.05, 1e-12);
+  EXPECT_EQ(measured_distribution(1.0, at, finer), 1.0);
+  EXPECT_EQ(measured_distribution(0.0, at, finer), 0.0);
+}
+
+TEST(PopulationBalance, TwoTermsAreFound) {
+  std::vector<double> z, finer;
+  for (double at = 0.05; at <= 1.0; at += 0.05)
+    z.push_back(at), finer.push_back(austin_distribution(at, 0.15, 0.4, 5.0));
+  const Fit fit = fit_austin(z, finer);
+  EXPECT_NEAR(fit.value("phi"), 0.15, 1e-4);
+  EXPECT_NEAR(fit.value("g"), 0.4, 1e-3);
+  EXPECT_NEAR(fit.value("b"), 5.0, 1e-2);
+  EXPECT_DOUBLE_EQ(austin_distribution(1.0, 0.15, 0.4, 5.0), 1.0);
+}
+
 TEST(PopulationBalance, DistributionIsFound) {
   std::vector<double> z, finer;
   for (double at = 0.05; at <= 1.0; at += 0.05) z.push_back(at), finer.push_back(breakage_distribution(at, 0.7, 0.35));
