@@ -14,12 +14,12 @@ namespace {
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
-// A message of several lines keeps its mark on every one.
+// A message of several lines keeps its mark on every one. Where it cannot be written there is nobody left to tell.
 int fail(const std::string& message, ExitCode exit_code) {
   std::size_t begin = 0;
   while (begin <= message.size()) {
     const std::size_t end = std::min(message.find('\n', begin), message.size());
-    fmt::print(stderr, "error: {}\n", message.substr(begin, end - begin));
+    std::fputs(fmt::format("error: {}\n", message.substr(begin, end - begin)).c_str(), stderr);
     begin = end + 1;
   }
   return code(exit_code);
