@@ -9,6 +9,7 @@
 #include "app/run_sanity.hpp"
 #include "app/terminal.hpp"
 #include "campaign/run_campaign.hpp"
+#include "campaign/slurm_engine.hpp"
 #include "config/load_config.hpp"
 #include "io/csv_line.hpp"
 
@@ -51,6 +52,7 @@ std::string duration(double seconds) {
 /// What a run is expected to cost.
 struct Cost {
   double tets = 0.0, seconds = 0.0, bytes = 0.0;
+  int threads = 0;  ///< 0 = all processors
 };
 
 Cost expected_cost(const RunConfig& config) {
@@ -58,7 +60,7 @@ Cost expected_cost(const RunConfig& config) {
   const SanityCard card =
       shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config.particles[0]));
   const double tets = card.input.num_tets;
-  return {tets, card.wall_time, memory_of_program + memory_of_tet * tets};
+  return {tets, card.wall_time, memory_of_program + memory_of_tet * tets, config.run.threads};
 }
 
 // Every case of a campaign is checked before the first one runs, so that nothing fails in the middle of the night.
@@ -78,6 +80,7 @@ void show(const CampaignProgress& now, bool is_live) {
   std::string line = fmt::format("{} of {} done, {} running, {} failed, {} waiting", now.done, now.total(), now.running,
                                  now.failed, now.waiting);
   if (now.seconds_left > 0.0 && now.running > 0) line += fmt::format(", about {} left", duration(now.seconds_left));
+  if (!now.remark.empty()) line += fmt::format(" ({})", now.remark);
   if (is_live)
     fmt::print("\r\x1b[K{}", line);
   else
@@ -88,9 +91,9 @@ void show(const CampaignProgress& now, bool is_live) {
 // On a terminal always; in a file only when something has changed.
 std::function<void(const CampaignProgress&)> live_table() {
   const bool is_live = is_terminal(STDOUT_FILENO);
-  return [is_live, last = std::size_t{0}, first = true](const CampaignProgress& now) mutable {
-    if (!is_live && !first && now.done + now.failed == last) return;
-    last = now.done + now.failed, first = false;
+  return [is_live, last = std::size_t{0}, remark = std::string(), first = true](const CampaignProgress& now) mutable {
+    if (!is_live && !first && now.done + now.failed == last && now.remark == remark) return;
+    last = now.done + now.failed, remark = now.remark, first = false;
     show(now, is_live);
   };
 }
@@ -116,6 +119,31 @@ void tell_failures(const CampaignConfig& campaign, const CampaignFolder& folder)
   for (const CampaignRun& run : campaign_runs(campaign))
     if (const RunStatus status = status_of(folder, campaign, run); status.state == RunState::Failed)
       fmt::print(stderr, "error: {}: {}\n", run.name, status.reason);
+}
+
+// The most that any run wants; none where one wants all there are.
+int cpus_of_runs(const std::vector<Cost>& costs) {
+  int cpus = 1;
+  for (const Cost& cost : costs) {
+    if (cost.threads == 0) return 0;
+    cpus = std::max(cpus, cost.threads);
+  }
+  return cpus;
+}
+
+std::unique_ptr<Engine> engine_of(const CampaignArguments& arguments, const CampaignFolder& folder,
+                                  const std::vector<Cost>& costs) {
+  if (arguments.uses_slurm) {
+    if (arguments.slurm_options.find('\n') != std::string::npos) throw InputError("--slurm-options: must be one line");
+    return make_slurm_engine({folder.path, arguments.jobs, cpus_of_runs(costs), arguments.slurm_options});
+  }
+  if (!arguments.slurm_options.empty()) throw InputError("--slurm-options: needs --engine slurm");
+  if (const std::string jobs = open_slurm_jobs(folder.path); !jobs.empty())
+    throw InputError(fmt::format(
+        "{}: jobs of this campaign may still run under Slurm ({}): go on with --engine slurm, or, if they are "
+        "gone for certain, remove the folder {}",
+        folder.path.string(), jobs, slurm_folder(folder.path).string()));
+  return make_local_engine(num_jobs(arguments));
 }
 
 }  // namespace
@@ -150,9 +178,9 @@ ExitCode campaign_plan_command(const CampaignArguments& arguments) {
 ExitCode campaign_command(const CampaignArguments& arguments) {
   const CampaignConfig campaign = load(arguments);
   const CampaignFolder folder = folder_of(arguments);
-  checked_costs(campaign, campaign_runs(campaign));
+  const std::vector<Cost> costs = checked_costs(campaign, campaign_runs(campaign));
   catch_interrupts();
-  const auto engine = make_local_engine(num_jobs(arguments));
+  const auto engine = engine_of(arguments, folder, costs);
   const CampaignOptions options{folder, read_text(arguments.campaign_file), fs::read_symlink("/proc/self/exe"),
                                 arguments.retries_failed};
   const CampaignProgress end = run_campaign(campaign, options, *engine, live_table(), interrupt_requested());

@@ -14,12 +14,12 @@ namespace {
 
 int code(ExitCode exit_code) { return static_cast<int>(exit_code); }
 
-// A message of several lines keeps its mark on every one.
+// A message of several lines keeps its mark on every one. Where it cannot be written there is nobody left to tell.
 int fail(const std::string& message, ExitCode exit_code) {
   std::size_t begin = 0;
   while (begin <= message.size()) {
     const std::size_t end = std::min(message.find('\n', begin), message.size());
-    fmt::print(stderr, "error: {}\n", message.substr(begin, end - begin));
+    std::fputs(fmt::format("error: {}\n", message.substr(begin, end - begin)).c_str(), stderr);
     begin = end + 1;
   }
   return code(exit_code);
@@ -82,12 +82,22 @@ CampaignApps add_campaign(CLI::App& app, CampaignArguments& campaign) {
     one->add_option("FILE", campaign.campaign_file, "Campaign file (TOML)")->required(one == plan);
     one->add_option("--out", campaign.out, "Folder of the results; default: out/<name of the campaign>")
         ->type_name("DIR");
-    one->add_option("--jobs", campaign.jobs, "Runs at a time; default: one a core")
+    one->add_option("--jobs", campaign.jobs, "Runs at a time; default: one a core, under Slurm as many as it runs")
         ->type_name("N")
         ->check(CLI::Range(1, 1024));
   }
   plan->add_flag("--scale", campaign.scales, "Tell by the runs done what 10,000 such runs cost in core hours and disk");
   command->add_flag("--retry", campaign.retries_failed, "Try again what has failed");
+  command
+      ->add_option_function<std::string>(
+          "--engine", [&campaign](const std::string& engine) { campaign.uses_slurm = engine == "slurm"; },
+          "Where the runs run: on this machine, or in array jobs of Slurm; default: local")
+      ->type_name("ENGINE")
+      ->check(CLI::IsMember({"local", "slurm"}));
+  command
+      ->add_option("--slurm-options", campaign.slurm_options,
+                   "Options of sbatch: \"--partition=long --time=2:00:00 --mem=2G\"")
+      ->type_name("TEXT");
   return {command, plan};
 }
 

@@ -59,7 +59,9 @@ ExitCode strength_command(const StrengthArguments& arguments);
 struct CampaignArguments {
   std::filesystem::path campaign_file;
   std::filesystem::path out;  ///< "" = out/<name of the campaign>
-  int jobs = 0;               ///< runs at a time; 0 = one a core
+  int jobs = 0;               ///< runs at a time; 0 = one a core, under Slurm as many as it runs
+  bool uses_slurm = false;
+  std::string slurm_options;  ///< of sbatch
   bool retries_failed = false;
   bool scales = false;  ///< of the plan: tell what 10,000 such runs cost
 };

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +16,12 @@ namespace knap {
 namespace {
 
 namespace fs = std::filesystem;
+
+// A network file system is made to look at the server again by opening the folder, not by asking for a file in it.
+void look_again(const fs::path& path) {
+  std::error_code ignored;
+  const fs::directory_iterator opened(path, ignored);
+}
 
 // Empty if there is none.
 nlohmann::json report_in(const fs::path& run) {
@@ -42,6 +50,8 @@ RunStatus status_of(const CampaignFolder& folder, const CampaignConfig& campaign
   RunStatus status;
   if (fs::exists(folder.failure(run)))
     return {.state = RunState::Failed, .reason = std::string(trimmed(read_text(folder.failure(run))))};
+  look_again(folder.runs());
+  look_again(folder.run(run));
   const fs::path effective = folder.run(run) / "effective.toml";
   if (!fs::exists(effective)) return status;
   if (read_text(effective) != effective_toml(load_config(campaign.base, overrides_of(campaign, run))))
@@ -68,14 +78,33 @@ void record_failure(const CampaignFolder& folder, const CampaignRun& run, const 
 
 void forget_failure(const CampaignFolder& folder, const CampaignRun& run) { fs::remove(folder.failure(run)); }
 
-std::string reason_of(const CampaignFolder& folder, const CampaignRun& run, int exit_code) {
+std::string reason_of(const CampaignFolder& folder, const CampaignRun& run, const JobEnd& end) {
   std::string reason;
   std::ifstream log(folder.log(run));
   for (std::string line; std::getline(log, line);)
     if (line.starts_with("error: ")) reason = line.substr(7);
   if (!reason.empty()) return reason;
-  return exit_code > 128 ? fmt::format("ended by signal {}", exit_code - 128)
-                         : fmt::format("ended with code {}", exit_code);
+  const bool is_signal = end.exit_code > 128 && end.exit_code != static_cast<int>(ExitCode::Interrupted);
+  reason = end.is_lost ? "lost"
+           : is_signal ? fmt::format("ended by signal {}", end.exit_code - 128)
+                       : fmt::format("ended with code {}", end.exit_code);
+  return end.reason.empty() ? reason : fmt::format("{} ({})", reason, end.reason);
+}
+
+std::string disk_failure(const CampaignFolder& folder, const std::string& reason) {
+  const auto tells_so = [](const std::string& text) {
+    return text.find(std::strerror(ENOSPC)) != std::string::npos ||
+           text.find(std::strerror(EDQUOT)) != std::string::npos;
+  };
+  if (tells_so(reason)) return reason;
+  const fs::path probe = folder.path / "room";  // what a run could not write may have been its own log
+  try {
+    write_text_atomically(probe, std::string(65536, '.'));
+  } catch (const RuntimeFailure& failure) {
+    return tells_so(failure.what()) ? failure.what() : "";
+  }
+  fs::remove(probe);
+  return "";
 }
 
 }  // namespace knap

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <string>
 
+#include "campaign/engine.hpp"
 #include "config/campaign_config.hpp"
 
 namespace knap {
@@ -42,7 +43,11 @@ RunCost cost_of(const CampaignFolder& folder, const CampaignRun& run);
 void record_failure(const CampaignFolder& folder, const CampaignRun& run, const std::string& reason);
 void forget_failure(const CampaignFolder& folder, const CampaignRun& run);
 
-/// What a run that ended with this code said last: its last line that begins with "error: ", else how it ended.
-std::string reason_of(const CampaignFolder& folder, const CampaignRun& run, int exit_code);
+/// What a run that ended so said last: its last line that begins with "error: ", else how it ended.
+std::string reason_of(const CampaignFolder& folder, const CampaignRun& run, const JobEnd& end);
+/// Why the disk takes no more, if a run that failed for this reason had no room, or there is none in the folder now;
+/// else
+/// "".
+std::string disk_failure(const CampaignFolder& folder, const std::string& reason);
 
 }  // namespace knap

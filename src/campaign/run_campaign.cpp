@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <csignal>
 #include <deque>
 #include <thread>
+#include <utility>
 
 #include "campaign/results_table.hpp"
 #include "core/errors.hpp"
@@ -23,6 +24,8 @@ constexpr std::chrono::seconds between_tables(2);
 // A run that another process still holds, a left-over of a killed campaign that is about to stop, is tried that often.
 constexpr int most_tries = 60;
 constexpr std::chrono::milliseconds between_tries(500);
+// A run that was killed from outside, or lost with its machine, is tried that often: it may have been bad luck.
+constexpr int most_losses = 3;
 
 void make_folder(const fs::path& path) {
   std::error_code error;
@@ -41,6 +44,18 @@ void prepare_folder(const CampaignFolder& folder, const std::string& campaign_te
   make_folder(folder.path / "logs");
 }
 
+std::string times(int losses) { return losses > 1 ? fmt::format(", {} times", losses) : ""; }
+
+bool is_interrupted(const JobEnd& end) {
+  return !end.is_lost && end.exit_code == static_cast<int>(ExitCode::Interrupted);
+}
+
+// Killed from outside, rather than ended by a fault of its own.
+bool is_kill(const JobEnd& end) {
+  return end.is_lost || end.exit_code == 128 + SIGKILL || end.exit_code == 128 + SIGTERM ||
+         end.exit_code == 128 + SIGHUP;
+}
+
 /// A campaign under way.
 class Session {
  public:
@@ -51,7 +66,7 @@ class Session {
         runs_(campaign_runs(campaign)),
         status_(runs_.size()),
         tries_(runs_.size(), 0),
-        started_(runs_.size()),
+        losses_(runs_.size(), 0),
         table_(options.folder, campaign, runs_) {
     for (std::size_t i = 0; i < runs_.size(); ++i) {
       status_[i] = status_of(options.folder, campaign, runs_[i]);
@@ -67,17 +82,21 @@ class Session {
   }
 
   CampaignProgress run(const std::function<void(const CampaignProgress&)>& tell, const std::atomic<bool>& stop) {
-    bool is_stopping = false;
-    while (running_ > 0 || (!waiting_.empty() && !is_stopping)) {
-      if (stop && !is_stopping) engine_.stop(), is_stopping = true;
-      while (!is_stopping && !waiting_.empty() && engine_.free_slots() > 0) start_next();
+    while (running_ > 0 || (!waiting_.empty() && !is_stopping_)) {
+      if (stop) stop_runs();
+      while (!is_stopping_ && !waiting_.empty() && engine_.free_slots() > 0) start_next();
       tell(progress());
-      for (const JobEnd& end : engine_.wait(patience)) settle(end, is_stopping);
-      if (is_changed_ && Clock::now() - written_ > between_tables) write_table();
+      for (const JobEnd& end : engine_.wait(patience)) settle(end);
+      if (is_changed_ && disk_failure_.empty() && Clock::now() - written_ > between_tables) write_table();
     }
+    if (!disk_failure_.empty()) throw RuntimeFailure(disk_failure_);
     write_table();
     tell(progress());
     return progress();
+  }
+
+  void stop_runs() {
+    if (!std::exchange(is_stopping_, true)) engine_.stop();
   }
 
  private:
@@ -89,38 +108,57 @@ class Session {
     for (const std::string& text : overrides_of(campaign_, run)) command.insert(command.end(), {"--set", text});
     command.insert(command.end(), {"--out", options_.folder.run(run).string(), "--quiet",
                                    status_[i].can_resume ? "--resume" : "--overwrite"});
-    engine_.start({i, std::move(command), options_.folder.log(run)});
+    engine_.start({i, run.name, std::move(command), options_.folder.log(run)});
     status_[i].state = RunState::Running;
-    started_[i] = Clock::now();
     ++running_;
   }
 
-  void settle(const JobEnd& end, bool is_stopping) {
+  void settle(const JobEnd& end) {
     const CampaignRun& run = runs_[end.run];
     --running_;
-    ++tries_[end.run];
     const bool was_resumed = status_[end.run].can_resume;
-    const std::string reason = reason_of(options_.folder, run, end.exit_code);
-    const bool is_held = reason.find("another run writes here") != std::string::npos;
+    const std::string reason = reason_of(options_.folder, run, end);
     status_[end.run] = status_of(options_.folder, campaign_, run);
     if (status_[end.run].state == RunState::Done) {
-      seconds_ += std::chrono::duration<double>(Clock::now() - started_[end.run]).count();
-      ++timed_;
-    } else if (end.exit_code == static_cast<int>(ExitCode::Interrupted)) {
-      if (!is_stopping) waiting_.push_back(end.run);
-    } else if (was_resumed && !is_held) {  // its checkpoint may be of no use: once more, from the start
-      fs::remove(options_.folder.run(run) / "checkpoint.h5");
-      status_[end.run].can_resume = false;
-      waiting_.push_back(end.run);
-    } else if (is_held && tries_[end.run] < most_tries) {
-      std::this_thread::sleep_for(between_tries);
+      ++done_here_;
+    } else if (finds_disk_full(end, reason)) {
+      stop_runs();  // all others would fail alike
+    } else if (is_worth_a_try(end, reason, was_resumed)) {
       waiting_.push_back(end.run);
     } else {
-      record_failure(options_.folder, run, reason);
-      status_[end.run] = {.state = RunState::Failed, .reason = reason};
+      status_[end.run] = {.state = RunState::Failed, .reason = reason + times(losses_[end.run])};
+      record_failure(options_.folder, run, status_[end.run].reason);
     }
     table_.set(end.run, status_[end.run]);
     is_changed_ = true;
+  }
+
+  // From then on nothing is a run's own failure any more.
+  bool finds_disk_full(const JobEnd& end, const std::string& reason) {
+    if (!disk_failure_.empty()) return true;
+    if (is_stopping_ && is_interrupted(end)) return false;
+    const std::string failure = disk_failure(options_.folder, reason);
+    if (failure.empty()) return false;
+    disk_failure_ =
+        fmt::format("run {}: {}; make room: the same command goes on with the campaign", runs_[end.run].name, failure);
+    return true;
+  }
+
+  // Else it has failed for good.
+  bool is_worth_a_try(const JobEnd& end, const std::string& reason, bool was_resumed) {
+    if (reason.find("another run writes here") != std::string::npos) {
+      if (!is_stopping_) std::this_thread::sleep_for(between_tries);
+      return ++tries_[end.run] < most_tries;
+    }
+    if (is_interrupted(end) && (is_stopping_ || status_[end.run].can_resume)) return true;
+    const bool is_unseen =
+        end.exit_code == 0;  // its report is not there, or not yet: a network file system may be late
+    if (is_interrupted(end) || is_unseen || is_kill(end)) return ++losses_[end.run] < most_losses || is_stopping_;
+    if (was_resumed) {  // its checkpoint may be of no use: once more, from the start
+      fs::remove(options_.folder.run(runs_[end.run]) / "checkpoint.h5");
+      status_[end.run].can_resume = false;
+    }
+    return was_resumed;
   }
 
   void write_table() {
@@ -136,11 +174,14 @@ class Session {
       if (status.state == RunState::Failed) ++now.failed;
       if (status.state == RunState::Waiting) ++now.waiting;
     }
-    const double slots = static_cast<double>(running_ + engine_.free_slots());
-    if (timed_ > 0)
-      now.seconds_left = seconds_ / static_cast<double>(timed_) *
-                         (static_cast<double>(now.waiting) + 0.5 * static_cast<double>(running_)) /
-                         std::max(1.0, slots);
+    const EngineStatus engine = engine_.status();
+    now.remark = engine.remark;
+    now.running -= engine.queued;
+    now.waiting += engine.queued;
+    const double half = 0.5 * static_cast<double>(now.running);  // of what runs is done, on the average
+    if (done_here_ > 0)
+      now.seconds_left = std::chrono::duration<double>(Clock::now() - began_).count() *
+                         (static_cast<double>(now.waiting) + half) / (static_cast<double>(done_here_) + half);
     return now;
   }
 
@@ -149,14 +190,14 @@ class Session {
   Engine& engine_;
   std::vector<CampaignRun> runs_;
   std::vector<RunStatus> status_;
-  std::vector<int> tries_;
-  std::vector<Clock::time_point> started_;
+  std::vector<int> tries_;   // while it was held by another process
+  std::vector<int> losses_;  // how often it was killed or lost
   ResultsTable table_;
   std::deque<std::size_t> waiting_{};
-  std::size_t running_ = 0, done_before_ = 0, timed_ = 0;
-  double seconds_ = 0.0;  // that the timed runs took
-  Clock::time_point written_ = Clock::now();
-  bool is_changed_ = false;
+  std::size_t running_ = 0, done_before_ = 0, done_here_ = 0;
+  Clock::time_point began_ = Clock::now(), written_ = began_;
+  bool is_changed_ = false, is_stopping_ = false;
+  std::string disk_failure_{};  // why the campaign stops
 };
 
 }  // namespace
@@ -166,7 +207,13 @@ CampaignProgress run_campaign(const CampaignConfig& campaign, const CampaignOpti
   make_folder(options.folder.path);
   const FolderLock lock(options.folder.path, "campaign");
   prepare_folder(options.folder, options.campaign_text);
-  return Session(campaign, options, engine).run(tell, stop);
+  Session session(campaign, options, engine);
+  try {
+    return session.run(tell, stop);
+  } catch (...) {
+    session.stop_runs();
+    throw;
+  }
 }
 
 }  // namespace knap

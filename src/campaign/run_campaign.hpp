@@ -21,13 +21,15 @@ struct CampaignProgress {
   std::size_t done = 0, running = 0, failed = 0, waiting = 0;
   std::size_t done_before = 0;  ///< of those done, by an earlier session
   double seconds_left = 0.0;    ///< 0 = not known
+  std::string remark{};         ///< what keeps the engine; "" = nothing
 
   std::size_t total() const { return done + running + failed + waiting; }
 };
 
 /// Runs what is not done yet and grows results.csv; what fails is recorded and the rest goes on. Returns how it stands
 /// at the end, or when `stop` has become true and all runs have stopped. Throws InputError if the folder holds another
-/// campaign, or another process works on it; RuntimeFailure if it cannot be written.
+/// campaign, or another process works on it; RuntimeFailure if the disk is full, for the campaign or a run of it: then
+/// nothing is recorded as failed, and all runs are stopped.
 CampaignProgress run_campaign(const CampaignConfig& campaign, const CampaignOptions& options, Engine& engine,
                               const std::function<void(const CampaignProgress&)>& tell, const std::atomic<bool>& stop);
 

@@ -1,49 +1,13 @@
 // Campaigns as a user runs them.
 #include <gmock/gmock.h>
 
-#include <map>
-
-#include "io/csv_line.hpp"
-#include "tests/app/program.hpp"
+#include "tests/app/campaign_runs.hpp"
 
 namespace knap {
 namespace {
 
 namespace fs = std::filesystem;
 using testing::HasSubstr;
-
-class CampaignRuns : public ProgramTest {
- protected:
-  CampaignRuns() {
-    write("case.toml", breaking_case);
-    write("study.campaign.toml", campaign("[\"15 m/s\", \"25 m/s\"]"));
-  }
-  static std::string campaign(const std::string& speeds, const std::string& more = "") {
-    return "[campaign]\nbase = \"case.toml\"\n[set]\n\"output.frames\" = 0\n\"run.end_time\" = \"6 us\"\n" + more +
-           "[[axis]]\nkey = \"impact.speed\"\nvalues = " + speeds + "\n[[axis]]\nkey = \"run.seed\"\nvalues = [1, 2]\n";
-  }
-  Ended run_campaign(std::vector<std::string> more = {}) const {
-    std::vector<std::string> arguments{"campaign", "study.campaign.toml", "--out", "c"};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    return run(arguments);
-  }
-  /// results.csv: run -> column -> cell.
-  std::map<std::string, std::map<std::string, std::string>> results(const std::string& out = "c") const {
-    std::map<std::string, std::map<std::string, std::string>> rows;
-    std::istringstream text(content(folder / out / "results.csv"));
-    std::vector<std::string> header;
-    for (std::string line; std::getline(text, line);) {
-      const std::vector<std::string> cells = csv_cells(line);
-      if (header.empty()) {
-        header = cells;
-        continue;
-      }
-      EXPECT_EQ(cells.size(), header.size());
-      for (std::size_t i = 0; i < cells.size(); ++i) rows[cells[0]][header[i]] = cells[i];
-    }
-    return rows;
-  }
-};
 
 TEST_F(CampaignRuns, RunsEverythingOnceAndMakesOneTable) {
   const Ended first = run_campaign();
