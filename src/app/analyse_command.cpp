@@ -1,6 +1,8 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include "app/commands.hpp"
+#include "app/terminal.hpp"
 #include "config/units.hpp"
 #include "study/write_study.hpp"
 
@@ -28,8 +30,14 @@ ExitCode analyse_command(const AnalyseArguments& arguments) {
     options.sieve = sieve.value;
   }
   if (!arguments.normal_speeds.empty()) options.normal_speeds = arguments.normal_speeds;
+  if (is_terminal(STDOUT_FILENO))
+    options.tell = [](const std::string& what) {
+      fmt::print("\r\x1b[Kanalysing: {} ...", what);
+      std::fflush(stdout);
+    };
   const fs::path out = arguments.out.empty() ? arguments.folders.front() : arguments.out;
   const StudyOutcome outcome = write_study(arguments.folders, out / "analysis", out / "report.html", options);
+  if (is_terminal(STDOUT_FILENO)) fmt::print("\r\x1b[K");
   for (const std::string& verdict : outcome.verdicts) fmt::print("{}\n", verdict);
   fmt::print("{} runs analysed, {} failed, {} not done; {}, plots and tables in {}\n", outcome.runs, outcome.failed,
              outcome.waiting, (out / "report.html").string(), (out / "analysis").string());

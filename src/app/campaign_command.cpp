@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Time of a run before its first step: the program itself and a small mesh [s].
+constexpr double start_seconds = 0.5;
 // Memory of a breaking run over its tets (README, Figures), and of the program itself [bytes].
 constexpr double memory_of_tet = 1300.0, memory_of_program = 60e6;
 
@@ -60,7 +62,7 @@ Cost expected_cost(const RunConfig& config) {
   const SanityCard card =
       shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config.particles[0]));
   const double tets = card.input.num_tets;
-  return {tets, card.wall_time, memory_of_program + memory_of_tet * tets, config.run.threads};
+  return {tets, start_seconds + card.wall_time, memory_of_program + memory_of_tet * tets, config.run.threads};
 }
 
 // Every case of a campaign is checked before the first one runs, so that nothing fails in the middle of the night.
@@ -181,8 +183,9 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
   const std::vector<Cost> costs = checked_costs(campaign, campaign_runs(campaign));
   catch_interrupts();
   const auto engine = engine_of(arguments, folder, costs);
-  const CampaignOptions options{folder, read_text(arguments.campaign_file), fs::read_symlink("/proc/self/exe"),
-                                arguments.retries_failed};
+  CampaignOptions options{folder, read_text(arguments.campaign_file), fs::read_symlink("/proc/self/exe"),
+                          arguments.retries_failed};
+  for (const Cost& cost : costs) options.efforts.push_back(cost.seconds);
   const CampaignProgress end = run_campaign(campaign, options, *engine, live_table(), interrupt_requested());
   if (is_terminal(STDOUT_FILENO)) fmt::print("\n");
   tell_failures(campaign, folder);

@@ -121,6 +121,7 @@ class Session {
     status_[end.run] = status_of(options_.folder, campaign_, run);
     if (status_[end.run].state == RunState::Done) {
       ++done_here_;
+      effort_here_ += effort_of(end.run);
     } else if (finds_disk_full(end, reason)) {
       stop_runs();  // all others would fail alike
     } else if (is_worth_a_try(end, reason, was_resumed)) {
@@ -167,6 +168,23 @@ class Session {
     is_changed_ = false;
   }
 
+  double effort_of(std::size_t run) const { return options_.efforts.empty() ? 1.0 : options_.efforts[run]; }
+
+  // What runs is half done, on the average.
+  double effort_of_running() const {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < status_.size(); ++i)
+      if (status_[i].state == RunState::Running) sum += 0.5 * effort_of(i);
+    return sum;
+  }
+  double effort_made() const { return effort_here_ + effort_of_running(); }
+  double effort_left() const {
+    double sum = effort_of_running();
+    for (std::size_t i = 0; i < status_.size(); ++i)
+      if (status_[i].state == RunState::Waiting) sum += effort_of(i);
+    return sum;
+  }
+
   CampaignProgress progress() const {
     CampaignProgress now{.running = running_, .done_before = done_before_};
     for (const RunStatus& status : status_) {
@@ -178,10 +196,8 @@ class Session {
     now.remark = engine.remark;
     now.running -= engine.queued;
     now.waiting += engine.queued;
-    const double half = 0.5 * static_cast<double>(now.running);  // of what runs is done, on the average
     if (done_here_ > 0)
-      now.seconds_left = std::chrono::duration<double>(Clock::now() - began_).count() *
-                         (static_cast<double>(now.waiting) + half) / (static_cast<double>(done_here_) + half);
+      now.seconds_left = std::chrono::duration<double>(Clock::now() - began_).count() * effort_left() / effort_made();
     return now;
   }
 
@@ -195,6 +211,7 @@ class Session {
   ResultsTable table_;
   std::deque<std::size_t> waiting_{};
   std::size_t running_ = 0, done_before_ = 0, done_here_ = 0;
+  double effort_here_ = 0.0;  // of those done here
   Clock::time_point began_ = Clock::now(), written_ = began_;
   bool is_changed_ = false, is_stopping_ = false;
   std::string disk_failure_{};  // why the campaign stops

@@ -14,6 +14,7 @@ struct CampaignOptions {
   std::string campaign_text;      ///< of the campaign file, kept in the folder
   std::filesystem::path program;  ///< knap
   bool retries_failed = false;
+  std::vector<double> efforts{};  ///< what each run is expected to take, for the time left; empty = all alike
 };
 
 /// How a campaign stands, for its live table.

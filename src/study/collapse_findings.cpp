@@ -110,7 +110,8 @@ void tell(Findings& findings, PageSection& section, const Series& series, const 
 
 }  // namespace
 
-void add_collapse(Findings& findings, const Study& study, const Series& series, const std::string& suffix, Json& json) {
+void add_collapse(Findings& findings, const Study& study, const Series& series, const std::string& suffix, int samples,
+                  Json& json) {
   PageSection section{.title = titled("Equivalent velocity", series)};
   section.paragraphs.push_back(
       "v_eq = v sin θ √(1 + (a μ cos θ)²) (Wang et al. 2019), with a μ ≤ 1: beyond it v_eq does not rise with the "
@@ -126,7 +127,7 @@ void add_collapse(Findings& findings, const Study& study, const Series& series, 
       const std::string key = is_plain ? response : response + "_stabilised";
       const std::string name = is_plain ? words(response) : words(response) + ", stabilised";
       try {
-        const CollapseComparison found = compare_collapse(impacts, FrictionRule::FreeProduct, scale);
+        const CollapseComparison found = compare_collapse(impacts, FrictionRule::FreeProduct, scale, samples);
         tell(findings, section, series, name, found, json["equivalent_velocity"][key]);
         if (!is_plain) continue;
         draw_collapse(findings, section, study, series, response, found.model, found.model.value, "equivalent velocity",
@@ -142,7 +143,7 @@ void add_collapse(Findings& findings, const Study& study, const Series& series, 
   findings.sections.push_back(std::move(section));
 }
 
-void add_known_friction(Findings& findings, const Study& study) {
+void add_known_friction(Findings& findings, const Study& study, int samples) {
   std::set<double> frictions;
   for (const StudyRun& run : study.runs)
     if (run.series.empty()) frictions.insert(run.friction);
@@ -154,7 +155,8 @@ void add_known_friction(Findings& findings, const Study& study) {
     for (const Series& series : series_of(study))
       for (const ObliqueImpact& impact : impacts_of(study, series, response)) impacts.push_back(impact);
     try {
-      const CollapseComparison known = compare_collapse(impacts, FrictionRule::KnownFriction);
+      const CollapseComparison known =
+          compare_collapse(impacts, FrictionRule::KnownFriction, BreakageScale::Plain, samples);
       json[response] = collapse_json(known.model, angles(impacts));
       json[response]["a"] = known.model.value;
       json[response]["a_interval"] = json_of(known.model.interval);

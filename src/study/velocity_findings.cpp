@@ -21,7 +21,8 @@ bool varies_speed(const Series& series) {
 
 }  // namespace
 
-void add_velocity_findings(Findings& findings, const Study& study, const std::vector<double>& normal_speeds) {
+void add_velocity_findings(Findings& findings, const Study& study, const std::vector<double>& normal_speeds,
+                           int collapse_samples) {
   const std::vector<Series> all = series_of(study);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Series& series = all[k];
@@ -31,7 +32,7 @@ void add_velocity_findings(Findings& findings, const Study& study, const std::ve
     add_breakage_curves(findings, study, series, suffix, json);
     if (angles_of(series).size() > 1) {
       if (series.conditions.front().friction > 0.0) {
-        add_collapse(findings, study, series, suffix, json);
+        add_collapse(findings, study, series, suffix, collapse_samples, json);
         add_tangential(findings, study, series, normal_speeds, suffix, json);
       } else {
         add_frictionless(findings, study, series, json);
@@ -39,7 +40,7 @@ void add_velocity_findings(Findings& findings, const Study& study, const std::ve
     }
     findings.json["velocity"].push_back(json);
   }
-  add_known_friction(findings, study);
+  add_known_friction(findings, study, collapse_samples);
 }
 
 }  // namespace knap

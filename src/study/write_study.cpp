@@ -66,6 +66,10 @@ std::string counts(const Study& study) {
 
 StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out, const fs::path& page,
                          const StudyOptions& options) {
+  const auto tell = [&](const std::string& what) {
+    if (options.tell) options.tell(what);
+  };
+  tell("reading the runs");
   const Study study = read_study(folders, options.sieve);
   fs::create_directories(out);
   Findings findings{.folder = out};
@@ -75,14 +79,21 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
       {"sieve_m", options.sieve > 0.0 ? Json(options.sieve) : Json("the diameter over 2^(1/4)")},
       {"units",
        "SI; angles in degrees from the plane of the wall where a name says deg; intervals are 95 %, bootstrap"}};
+  tell("the summary");
   add_summary(findings, study);
-  add_velocity_findings(findings, study, options.normal_speeds);
+  tell("breakage over speed and angle, the equivalent velocity");
+  add_velocity_findings(findings, study, options.normal_speeds, options.collapse_samples);
+  tell("the chipping law");
   add_chipping_findings(findings, study);
+  tell("size distributions");
   add_size_findings(findings, study);
+  tell("breakage functions");
   add_breakage_findings(findings, study, options.broken);
+  tell("energies");
   add_energy_findings(findings, study);
   findings.json["verdicts"] = findings.verdicts;
   write_text_atomically(out / "analysis.json", findings.json.dump(2) + "\n");
+  tell("report.html");
   write_campaign_page(page, {.title = options.title,
                              .subtitle = counts(study),
                              .verdicts = findings.verdicts,

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -10,7 +11,9 @@ struct StudyOptions {
   std::string title{};
   double sieve = 0.0;   ///< of the breakage ratio [m]; 0 = the diameter over 2^(1/4), the next finer of that series
   double broken = 0.1;  ///< mass loss from which a particle is broken (Tavares & King 1998)
-  std::vector<double> normal_speeds{8.0, 14.0};  ///< at which the tangential effect is told [m/s]
+  std::vector<double> normal_speeds{8.0, 14.0};    ///< at which the tangential effect is told [m/s]
+  int collapse_samples = 300;                      ///< bootstrap draws of the equivalent velocity's fit
+  std::function<void(const std::string&)> tell{};  ///< what is being done now; may be empty
 };
 
 struct StudyOutcome {

@@ -75,7 +75,7 @@ class StudyTest : public TemporaryFolder {
                  seed, mesh});
           }
   }
-  nlohmann::json studied(const StudyOptions& options = {.title = "made up"}) {
+  nlohmann::json studied(const StudyOptions& options = {.title = "made up", .collapse_samples = 60}) {
     write();
     const std::array folders{campaign()};
     outcome = write_study(folders, folder / "analysis", folder / "report.html", options);
@@ -117,7 +117,9 @@ TEST_F(StudyTest, FindsTheEquivalentVelocityThatTheRunsFollow) {
 TEST_F(StudyTest, SaysWhereTheNormalComponentIsEnough) {
   add_oblique(0.0);
   const auto found = studied()["velocity"][0]["equivalent_velocity"]["chipping_ratio"];
-  EXPECT_LT(found["model"]["a_mu_interval"][0].get<double>(), 0.05);
+  // At 45 deg v_eq is then less than 1 % above v sin th.
+  EXPECT_LT(found["model"]["a_mu"].get<double>(), 0.2);
+  EXPECT_LT(found["model"]["a_mu_interval"][0].get<double>(), 0.2);
   EXPECT_THAT(found["verdict"].get<std::string>(), testing::Not(HasSubstr("beats")));
 }
 
