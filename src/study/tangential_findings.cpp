@@ -174,8 +174,11 @@ void add_frictionless(Findings& findings, const Study& study, const Series& seri
                                              {"equal_to_1e-9", equal},
                                              {"largest_difference", largest},
                                              {"largest_relative_difference_of_energy", json_of(largest_energy)}});
-    const std::string text = fmt::format(
-        "{} of {} pairs have the same chipping ratio to 1e-9, others differ by up to {:.2g}", equal, pairs, largest);
+    const std::string text =
+        equal == pairs
+            ? fmt::format("all {} pairs have the same chipping ratio to 1e-9", pairs)
+            : fmt::format("{} of {} pairs have the same chipping ratio to 1e-9, others differ by up to {:.2g}", equal,
+                          pairs, largest);
     section.rows.push_back({fmt::format("energy of breaking at {:.4g} m/s towards the wall differs by", speed),
                             shown(100.0 * largest_energy) + " %", "", text});
     findings.verdicts.push_back(
