@@ -50,6 +50,12 @@ PlotAxis logarithmic_axis(const Interval& range) {
       if ((factor == 1.0 || decades <= 3.0) && position >= axis.low && position <= axis.high)
         add_tick(axis, position, value);
     }
+  constexpr std::size_t fewest_ticks = 3;
+  if (axis.ticks.size() >= fewest_ticks) return axis;
+  axis.ticks.clear(), axis.labels.clear();  // less than a decade: round steps
+  const double low = std::pow(10.0, axis.low), high = std::pow(10.0, axis.high);
+  for (const double value : linear_axis({low, high}).ticks)
+    if (value >= low && value <= high) add_tick(axis, std::log10(value), value);
   return axis;
 }
 

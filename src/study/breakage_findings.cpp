@@ -185,15 +185,21 @@ void draw_t10(Findings& findings, PageSection& section, const Series& series, co
   PlotInput plot{
       .title = titled("t10 over energy", series), .x_label = "specific impact energy [J/kg]", .y_label = "t10 [-]"};
   plot.series = {points, curve_of("Shi-Kojovic", impacts.largest_energy, law, 1)};
-  if (fits.tavares && fits.tavares_t10)
-    plot.series.push_back(curve_of(
-        "Tavares", impacts.largest_energy,
-        [&](double w) {
-          if (w <= 0.0) return 0.0;
-          const double e50b = median_broken_energy(w, fits.tavares->value("E50"), fits.tavares->value("sigma"));
-          return fits.tavares_t10->value("A") * -std::expm1(-fits.tavares_t10->value("b'") * w / e50b);
-        },
-        2));
+  if (fits.tavares && fits.tavares_t10) {
+    const auto of_broken = [&](double w) {
+      const double e50b = median_broken_energy(w, fits.tavares->value("E50"), fits.tavares->value("sigma"));
+      return fits.tavares_t10->value("A") * -std::expm1(-fits.tavares_t10->value("b'") * w / e50b);
+    };
+    PlotSeries curve{.name = "Tavares", .colour = 2};  // from the least energy that broke a particle
+    double least = impacts.largest_energy;
+    for (const EnergyImpact& impact : impacts.list)
+      if (impact.is_broken) least = std::min(least, impact.energy);
+    for (int i = 0; i <= 100; ++i) {
+      curve.x.push_back(least + 0.01 * i * (impacts.largest_energy - least));
+      curve.y.push_back(of_broken(curve.x.back()));
+    }
+    plot.series.push_back(curve);
+  }
   add_figure(findings, section, "t10" + suffix, plot, "Tavares' law is of the broken particles alone.");
   PlotSeries residuals = points;
   for (std::size_t i = 0; i < residuals.x.size(); ++i) residuals.y[i] -= law(residuals.x[i]);

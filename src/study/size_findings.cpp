@@ -18,26 +18,44 @@ using Json = nlohmann::ordered_json;
 constexpr double largest_sieve = 1.1892071150027210;  // 2^(1/4): the whole particle passes it
 constexpr double smallest_sieve = 0.02;
 
-// Of what is finer than most of the largest pieces and coarser than the floor.
+// What a condition must lose on average, and how far the power law of the fines is looked for, over the diameter.
+constexpr double least_loss = 0.01, largest_fines = 0.25;
+
+void add_law(PageSection& section, const Condition& condition, const std::string& name, const Fit& fit,
+             const std::string& exponent, const std::string& size) {
+  section.rows.push_back({fmt::format("{:g} m/s: {} {}", condition.speed, name, exponent), shown(fit.value(exponent)),
+                          std::isfinite(fit.error(exponent)) ? "± " + shown(fit.error(exponent)) : "",
+                          fit.is_at_end[0] || fit.is_at_end[1]
+                              ? "at the end of its range: not of this form"
+                              : fmt::format("{} = {:.3g} mm", size, 1e3 * fit.value(size))});
+}
+
+// Rosin and Rammler's between the floor and the largest piece, Gates, Gaudin and Schuhmann's between the floor and a
+// quarter of the diameter: large pieces are a peak of their own.
 void fit_laws(const Study& study, const Condition& condition, const std::vector<double>& sieves,
               const std::vector<double>& finer, double floor, PageSection& section, Json& json) {
+  if (mean_of(study, condition.runs, "chipping_ratio") < least_loss) return;
   double largest = 0.0;
   for (const std::size_t i : condition.runs)
     largest = std::max(largest, study.runs[i].sizes.back().sieve_size / study.runs[i].diameter);
   const double diameter = study.runs[condition.runs.front()].diameter;
-  std::vector<double> sizes, fractions;
-  for (std::size_t i = 0; i < sieves.size(); ++i)
-    if (sieves[i] >= floor && sieves[i] < largest && finer[i] > 0.0)
-      sizes.push_back(sieves[i] * diameter), fractions.push_back(finer[i]);
-  if (sizes.size() < 4) return;
-  const Fit rosin = fit_rosin_rammler(sizes, fractions), gates = fit_gates_gaudin_schuhmann(sizes, fractions);
-  json["rosin_rammler"] = json_of(rosin), json["gates_gaudin_schuhmann"] = json_of(gates);
-  section.rows.push_back({fmt::format("{:g} m/s: Rosin-Rammler n", condition.speed), shown(rosin.value("n")),
-                          fmt::format("± {}", shown(rosin.error("n"))),
-                          fmt::format("x63 = {:.3g} mm", 1e3 * rosin.value("x63"))});
-  section.rows.push_back({fmt::format("{:g} m/s: Gates-Gaudin-Schuhmann m", condition.speed), shown(gates.value("m")),
-                          fmt::format("± {}", shown(gates.error("m"))),
-                          fmt::format("k = {:.3g} mm", 1e3 * gates.value("k"))});
+  std::vector<double> all, all_finer, fines, fines_finer;
+  for (std::size_t i = 0; i < sieves.size(); ++i) {
+    if (sieves[i] < floor || sieves[i] >= largest || finer[i] <= 0.0) continue;
+    all.push_back(sieves[i] * diameter), all_finer.push_back(finer[i]);
+    if (sieves[i] <= largest_fines) fines.push_back(all.back()), fines_finer.push_back(finer[i]);
+  }
+  constexpr std::size_t fewest = 4;
+  if (all.size() >= fewest) {
+    const Fit rosin = fit_rosin_rammler(all, all_finer);
+    json["rosin_rammler"] = json_of(rosin);
+    add_law(section, condition, "Rosin-Rammler", rosin, "n", "x63");
+  }
+  if (fines.size() >= fewest) {
+    const Fit gates = fit_gates_gaudin_schuhmann(fines, fines_finer);
+    json["gates_gaudin_schuhmann"] = json_of(gates);
+    add_law(section, condition, "Gates-Gaudin-Schuhmann", gates, "m", "k");
+  }
 }
 
 void add_distributions(Findings& findings, const Study& study, const Series& series, const std::string& suffix,
@@ -47,8 +65,11 @@ void add_distributions(Findings& findings, const Study& study, const Series& ser
   PageSection section{.title = titled("Size distributions", series)};
   section.paragraphs.push_back(fmt::format(
       "Mass finer than a sieve, means over meshes and seeds at {:.3g}°. Below the resolution floor, the mean edge of "
-      "the "
-      "coarsest mesh, pieces are products of the mesh. The laws are fitted between the floor and the largest piece.",
+      "the coarsest mesh, pieces are products of the mesh. Where the mean loss is above 1 %, Rosin and Rammler's law "
+      "is "
+      "fitted between the floor and the largest piece, Gates, Gaudin and Schuhmann's to the fines, between the floor "
+      "and "
+      "a quarter of the diameter.",
       list.front().angle / degree));
   PlotInput plot{.title = titled("size distributions", series),
                  .x_label = "size over the particle's diameter [-]",
