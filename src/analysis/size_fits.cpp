@@ -8,7 +8,7 @@ namespace {
 
 FitParameter size_parameter(const char* name, std::span<const double> sizes) {
   const auto [least, largest] = std::minmax_element(sizes.begin(), sizes.end());
-  return {name, "m", 1e-2 * *least, 1e4 * *largest, true};
+  return {name, "m", 1e-2 * *least, 1e8 * *largest, true};
 }
 
 }  // namespace

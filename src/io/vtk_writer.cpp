@@ -20,6 +20,7 @@
 
 #include "core/errors.hpp"
 #include "io/file_output.hpp"
+#include "io/markup.hpp"
 
 namespace knap {
 namespace {
@@ -65,29 +66,6 @@ void set_cells(vtkUnstructuredGrid* target, const VtkGrid& grid) {
   target->SetCells(types, cells);
 }
 
-std::string xml_escaped(const std::string& text) {
-  std::string escaped;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        escaped += "&amp;";
-        break;
-      case '<':
-        escaped += "&lt;";
-        break;
-      case '>':
-        escaped += "&gt;";
-        break;
-      case '"':
-        escaped += "&quot;";
-        break;
-      default:
-        escaped += c;
-    }
-  }
-  return escaped;
-}
-
 }  // namespace
 
 void write_vtu(const std::filesystem::path& path, const VtkGrid& grid) {
@@ -116,7 +94,8 @@ void write_pvd(const std::filesystem::path& path, std::span<const PvdFrame> fram
       "<VTKFile type=\"Collection\" version=\"0.1\" byte_order=\"LittleEndian\">\n"
       "  <Collection>\n";
   for (const PvdFrame& frame : frames) {
-    text += fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, xml_escaped(frame.file));
+    text +=
+        fmt::format("    <DataSet timestep=\"{}\" part=\"0\" file=\"{}\"/>\n", frame.time, markup_escaped(frame.file));
   }
   text += "  </Collection>\n</VTKFile>\n";
   write_text_atomically(path, text);

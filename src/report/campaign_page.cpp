@@ -1,6 +1,7 @@
 #include "report/campaign_page.hpp"
 
 #include "io/file_output.hpp"
+#include "io/markup.hpp"
 #include "report/page_data.hpp"
 #include "report/page_files.hpp"
 #include "report/page_sections.hpp"
@@ -9,7 +10,7 @@
 namespace knap {
 
 void write_campaign_page(const std::filesystem::path& html, const CampaignPage& page) {
-  const std::string title = html_escaped(page.title), subtitle = html_escaped(page.subtitle);
+  const std::string title = markup_escaped(page.title), subtitle = markup_escaped(page.subtitle);
   const std::string verdicts = verdicts_html(page), contents = contents_html(page), sections = sections_html(page);
   const std::string gallery = gallery_html(page), table = table_json(page.runs_table), frames = frames_html(page);
   write_text_atomically(html, expanded(page_files::page_html, {{"title", title},

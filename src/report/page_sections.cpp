@@ -6,6 +6,7 @@
 
 #include "core/errors.hpp"
 #include "io/csv_line.hpp"
+#include "io/markup.hpp"
 #include "report/page_text.hpp"
 
 namespace knap {
@@ -20,7 +21,7 @@ std::string picture_html(const std::filesystem::path& file, std::string_view typ
   return fmt::format(
       "<button class=\"enlarge\" type=\"button\" aria-label=\"Enlarge: {0}\"><img loading=\"lazy\" alt=\"{0}\" "
       "src=\"{1}\"></button>",
-      html_escaped(text), data_url(type, read_text(file)));
+      markup_escaped(text), data_url(type, read_text(file)));
 }
 
 std::string figure_html(const PageFigure& figure) {
@@ -29,7 +30,8 @@ std::string figure_html(const PageFigure& figure) {
   return fmt::format(
       "<figure class=\"plot\">\n<h3>{}</h3>\n{}\n<figcaption><span>{}</span> <a class=\"save\" download=\"{}\" "
       "href=\"#\">SVG</a></figcaption>\n</figure>\n",
-      html_escaped(figure.title), svg, html_escaped(figure.caption), html_escaped(figure.svg.filename().string()));
+      markup_escaped(figure.title), svg, markup_escaped(figure.caption),
+      markup_escaped(figure.svg.filename().string()));
 }
 
 // Columns that no row uses are left out.
@@ -46,18 +48,18 @@ std::string rows_html(const std::vector<PageRow>& rows) {
   if (has_remark) html += "<th scope=\"col\">Remark</th>";
   html += "</tr></thead>\n<tbody>\n";
   for (const PageRow& row : rows) {
-    html += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"value\">{}</td>", html_escaped(row.name),
-                        html_escaped(row.value));
-    if (has_interval) html += fmt::format("<td class=\"interval\">{}</td>", html_escaped(row.interval));
-    if (has_remark) html += fmt::format("<td class=\"remark\">{}</td>", html_escaped(row.remark));
+    html += fmt::format("<tr><th scope=\"row\">{}</th><td class=\"value\">{}</td>", markup_escaped(row.name),
+                        markup_escaped(row.value));
+    if (has_interval) html += fmt::format("<td class=\"interval\">{}</td>", markup_escaped(row.interval));
+    if (has_remark) html += fmt::format("<td class=\"remark\">{}</td>", markup_escaped(row.remark));
     html += "</tr>\n";
   }
   return html + "</tbody>\n</table></div>\n";
 }
 
 std::string section_html(const PageSection& section, std::size_t number) {
-  std::string html = fmt::format("<section id=\"section-{}\">\n<h2>{}</h2>\n", number, html_escaped(section.title));
-  for (const std::string& paragraph : section.paragraphs) html += fmt::format("<p>{}</p>\n", html_escaped(paragraph));
+  std::string html = fmt::format("<section id=\"section-{}\">\n<h2>{}</h2>\n", number, markup_escaped(section.title));
+  for (const std::string& paragraph : section.paragraphs) html += fmt::format("<p>{}</p>\n", markup_escaped(paragraph));
   html += rows_html(section.rows);
   if (!section.figures.empty()) {
     html += "<div class=\"plots\">\n";
@@ -68,7 +70,7 @@ std::string section_html(const PageSection& section, std::size_t number) {
 }
 
 std::string link_html(const std::string& id, const std::string& text) {
-  return fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, html_escaped(text));
+  return fmt::format("<li><a href=\"#{}\">{}</a></li>\n", id, markup_escaped(text));
 }
 
 }  // namespace
@@ -79,7 +81,7 @@ bool has_frame(const PageRun& run) { return is_there(run.frame); }
 std::string verdicts_html(const CampaignPage& page) {
   if (page.verdicts.empty()) return "";
   std::string html = "<ul class=\"verdicts\">\n";
-  for (const std::string& verdict : page.verdicts) html += fmt::format("<li>{}</li>\n", html_escaped(verdict));
+  for (const std::string& verdict : page.verdicts) html += fmt::format("<li>{}</li>\n", markup_escaped(verdict));
   return html + "</ul>\n";
 }
 
@@ -103,8 +105,8 @@ std::string gallery_html(const CampaignPage& page) {
   for (const PageRun& run : page.runs) {
     if (!has_picture(run)) continue;
     html += fmt::format("<figure class=\"picture\">\n{}\n<figcaption><strong>{}</strong> {}</figcaption>\n</figure>\n",
-                        picture_html(run.picture, "image/png", run.name), html_escaped(run.name),
-                        html_escaped(run.caption));
+                        picture_html(run.picture, "image/png", run.name), markup_escaped(run.name),
+                        markup_escaped(run.caption));
   }
   if (html.empty()) return "";
   return "<section id=\"pictures\" class=\"wide\">\n<h2>Pictures</h2>\n<div class=\"gallery\">\n" + html +

@@ -5,8 +5,6 @@
 
 namespace knap {
 
-/// The text as content or quoted attribute of HTML.
-std::string html_escaped(std::string_view text);
 /// JSON as the content of a <script>: nothing in it can end the element.
 std::string script_safe(std::string json);
 /// RFC 4648, padded.
