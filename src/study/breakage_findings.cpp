@@ -70,16 +70,6 @@ PlotSeries measured_share(const Impacts& impacts, bool over_energy) {
   return points;
 }
 
-template <class Function>
-PlotSeries curve_of(const std::string& name, double highest, const Function& function, std::size_t colour) {
-  PlotSeries curve{.name = name, .colour = colour};
-  for (int i = 0; i <= 200; ++i) {
-    curve.x.push_back(highest * i / 200.0);
-    curve.y.push_back(function(curve.x.back()));
-  }
-  return curve;
-}
-
 /// The fits that could be made.
 struct Fits {
   std::optional<Fit> vogel{}, shi{}, tavares{}, tavares_t10{}, damage{}, weibull{};
@@ -142,72 +132,55 @@ Fits fits_of(const Study& study, const Impacts& impacts, double broken, PageSect
 
 void draw_probability(Findings& findings, PageSection& section, const Series& series, const Impacts& impacts,
                       const Fits& fits, const std::string& suffix) {
-  PlotInput plot{.title = titled("breakage probability over energy", series),
-                 .x_label = "specific impact energy [J/kg]",
-                 .y_label = "probability [-]"};
-  plot.series.push_back(measured_share(impacts, true));
+  std::vector<DrawnLaw> laws;
   if (fits.vogel)
-    plot.series.push_back(curve_of(
-        "Vogel-Peukert", impacts.largest_energy,
-        [&](double w) { return vogel_peukert(w, fits.vogel->value("f_x"), fits.vogel->value("W_min")); }, 1));
+    laws.push_back({"Vogel-Peukert",
+                    [&](double w) { return vogel_peukert(w, fits.vogel->value("f_x"), fits.vogel->value("W_min")); }});
   if (fits.tavares)
-    plot.series.push_back(curve_of(
-        "Tavares", impacts.largest_energy,
-        [&](double w) {
-          return tavares_probability(w, fits.tavares->value("E50"), fits.tavares->value("sigma"), infinity);
-        },
-        2));
-  add_figure(findings, section, "breakage_probability" + suffix, plot, "Bars: Wilson's 95 % interval of a share.");
-  if (fits.weibull) {
-    const double fastest = *std::max_element(impacts.speeds.begin(), impacts.speeds.end());
-    PlotInput over_speed{.title = titled("breakage probability over speed", series),
-                         .x_label = "impact speed [m/s]",
-                         .y_label = "probability [-]"};
-    over_speed.series = {
-        measured_share(impacts, false),
-        curve_of(
-            "Weibull", fastest,
-            [&](double v) { return -std::expm1(-std::pow(v / fits.weibull->value("v_s"), fits.weibull->value("m"))); },
-            1)};
-    add_figure(findings, section, "breakage_probability_over_speed" + suffix, over_speed, "");
-  }
+    laws.push_back({"Tavares", [&](double w) {
+                      return tavares_probability(w, fits.tavares->value("E50"), fits.tavares->value("sigma"), infinity);
+                    }});
+  add_fit_figures(findings, section, "breakage_probability" + suffix,
+                  {.title = titled("breakage probability over energy", series),
+                   .x_label = "specific impact energy [J/kg]",
+                   .y_label = "probability [-]"},
+                  measured_share(impacts, true), laws, "Bars: Wilson's 95 % interval of a share.");
+  if (!fits.weibull) return;
+  const DrawnLaw weibull{"Weibull", [&](double v) {
+                           return -std::expm1(-std::pow(v / fits.weibull->value("v_s"), fits.weibull->value("m")));
+                         }};
+  add_fit_figures(findings, section, "breakage_probability_over_speed" + suffix,
+                  {.title = titled("breakage probability over speed", series),
+                   .x_label = "impact speed [m/s]",
+                   .y_label = "probability [-]"},
+                  measured_share(impacts, false), {weibull}, "");
 }
 
 void draw_t10(Findings& findings, PageSection& section, const Series& series, const Impacts& impacts, const Fits& fits,
               const std::string& suffix) {
   PlotSeries points{.name = "runs", .style = PlotSeries::Style::Points};
-  for (const EnergyImpact& impact : impacts.list)
+  double least_broken = impacts.largest_energy;
+  for (const EnergyImpact& impact : impacts.list) {
     if (std::isfinite(impact.t10)) points.x.push_back(impact.energy), points.y.push_back(impact.t10);
-  if (points.x.empty() || !fits.shi) return;
-  const auto law = [&](double w) {
-    return fits.shi->value("M") * vogel_peukert(w, fits.shi->value("f_x"), fits.shi->value("W_min"));
-  };
-  PlotInput plot{
-      .title = titled("t10 over energy", series), .x_label = "specific impact energy [J/kg]", .y_label = "t10 [-]"};
-  plot.series = {points, curve_of("Shi-Kojovic", impacts.largest_energy, law, 1)};
-  if (fits.tavares && fits.tavares_t10) {
-    const auto of_broken = [&](double w) {
-      const double e50b = median_broken_energy(w, fits.tavares->value("E50"), fits.tavares->value("sigma"));
-      return fits.tavares_t10->value("A") * -std::expm1(-fits.tavares_t10->value("b'") * w / e50b);
-    };
-    PlotSeries curve{.name = "Tavares", .colour = 2};  // from the least energy that broke a particle
-    double least = impacts.largest_energy;
-    for (const EnergyImpact& impact : impacts.list)
-      if (impact.is_broken) least = std::min(least, impact.energy);
-    for (int i = 0; i <= 100; ++i) {
-      curve.x.push_back(least + 0.01 * i * (impacts.largest_energy - least));
-      curve.y.push_back(of_broken(curve.x.back()));
-    }
-    plot.series.push_back(curve);
+    if (impact.is_broken) least_broken = std::min(least_broken, impact.energy);
   }
-  add_figure(findings, section, "t10" + suffix, plot, "Tavares' law is of the broken particles alone.");
-  PlotSeries residuals = points;
-  for (std::size_t i = 0; i < residuals.x.size(); ++i) residuals.y[i] -= law(residuals.x[i]);
-  PlotInput rest{.title = titled("t10, residuals of Shi-Kojovic", series),
-                 .x_label = plot.x_label,
-                 .y_label = "t10 minus the law [-]"};
-  rest.series = {residuals};
-  add_figure(findings, section, "t10_residuals" + suffix, rest, "");
+  if (!fits.shi) return;
+  std::vector<DrawnLaw> laws{{"Shi-Kojovic", [&](double w) {
+                                return fits.shi->value("M") *
+                                       vogel_peukert(w, fits.shi->value("f_x"), fits.shi->value("W_min"));
+                              }}};
+  if (fits.tavares && fits.tavares_t10)
+    laws.push_back({"Tavares",
+                    [&](double w) {
+                      const double e50b =
+                          median_broken_energy(w, fits.tavares->value("E50"), fits.tavares->value("sigma"));
+                      return fits.tavares_t10->value("A") * -std::expm1(-fits.tavares_t10->value("b'") * w / e50b);
+                    },
+                    least_broken});
+  add_fit_figures(
+      findings, section, "t10" + suffix,
+      {.title = titled("t10 over energy", series), .x_label = "specific impact energy [J/kg]", .y_label = "t10 [-]"},
+      points, laws, "Tavares' law is of the broken particles alone.");
 }
 
 // Shi & Kojovic's A b = 3600 M f_mat x, M in per cent: that of the drop-weight tests, A in %, b in t/kWh.
@@ -346,14 +319,14 @@ void export_balance(Findings& findings, PageSection& section, const Series& seri
   json["population_balance"] = {{"file", "population_balance" + suffix + ".json"}, {"mass_error_of_one_step", worst}};
   section.rows.push_back({"population balance: mass error of one step of grinding", fmt::format("{:.1g}", worst), "",
                           fmt::format("population_balance{0}.json, selection{0}.csv, breakage{0}.csv", suffix)});
-  PlotSeries points{
+  const PlotSeries points{
       .name = "broken particles", .x = measured.z, .y = measured.finer, .style = PlotSeries::Style::Points};
-  PlotInput plot{.title = titled("breakage distribution", series),
-                 .x_label = "size over the particle's [-]",
-                 .y_label = "B(x|y) [-]"};
-  plot.series = {points, curve_of("tanh", 1.0, tanh_law, 1), curve_of("two terms", 1.0, two_terms, 2)};
-  plot.marks.push_back({measured.floor, "resolution floor"});
-  add_figure(findings, section, "breakage_distribution" + suffix, plot, "");
+  add_fit_figures(findings, section, "breakage_distribution" + suffix,
+                  {.title = titled("breakage distribution", series),
+                   .x_label = "size over the particle's [-]",
+                   .y_label = "B(x|y) [-]",
+                   .marks = {{measured.floor, "resolution floor"}}},
+                  points, {{"tanh", tanh_law}, {"two terms", two_terms}}, "");
 }
 
 }  // namespace

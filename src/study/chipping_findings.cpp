@@ -115,6 +115,17 @@ void draw_law(Findings& findings, PageSection& section, const Part& part, const 
                  line(2.0, "published, 2", PlotSeries::Style::Dashes, 4),
                  line(4.5, "published, 4.5", PlotSeries::Style::Dashes, 5)};
   add_figure(findings, section, stem, plot, "The published laws are drawn through the middle of the fit.");
+  PlotInput residuals{.title = plot.title + ": residuals",
+                      .x_label = plot.x_label,
+                      .y_label = "runs over the law [-]",
+                      .log_x = true,
+                      .log_y = true};
+  for (PlotSeries over_law : {points, means}) {
+    for (std::size_t i = 0; i < over_law.x.size(); ++i)
+      over_law.y[i] /= law.factor * std::pow(over_law.x[i], law.exponent);
+    residuals.series.push_back(over_law);
+  }
+  add_figure(findings, section, stem + "_residuals", residuals, "");
 }
 
 void add_laws(Findings& findings, const Study& study, const Series& series, const std::string& suffix, Json& json) {

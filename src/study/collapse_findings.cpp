@@ -62,11 +62,8 @@ void draw_collapse(Findings& findings, PageSection& section, const Study& study,
   plot.x_label = over + " [m/s]", plot.y_label = words(response) + " [-]";
   add_figure(findings, section, stem, plot, fmt::format("Runs lie {:.3f} (rms) from the curve.", collapse.rms));
   PlotInput residuals = by_angle(study, series, response, velocity);
-  for (PlotSeries& points : residuals.series)
-    for (std::size_t i = 0; i < points.x.size(); ++i) {
-      const double at = collapse.curve(points.x[i]);
-      points.y[i] -= at, points.low[i] -= at, points.high[i] -= at;
-    }
+  for (std::size_t i = 0; i < residuals.series.size(); ++i)
+    residuals.series[i] = residuals_of(residuals.series[i], collapse.curve, residuals.series[i].name, i);
   residuals.title = titled("residuals over " + over, series);
   residuals.x_label = over + " [m/s]", residuals.y_label = words(response) + " minus the curve [-]";
   add_figure(findings, section, stem + "_residuals", residuals, "");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "io/file_output.hpp"
@@ -17,6 +18,44 @@ void add_figure(Findings& findings, PageSection& section, const std::string& ste
   if (!has_points) return;
   draw_plot_twice(findings.folder / stem, plot);
   section.figures.push_back({plot.title, findings.folder / (stem + ".svg"), caption});
+}
+
+PlotSeries residuals_of(const PlotSeries& points, const std::function<double(double)>& law, const std::string& name,
+                        std::size_t colour) {
+  PlotSeries residuals = points;
+  residuals.name = name, residuals.colour = colour;
+  for (std::size_t i = 0; i < points.x.size(); ++i) {
+    const double at = law(points.x[i]);
+    residuals.y[i] -= at;
+    if (!points.low.empty()) residuals.low[i] -= at, residuals.high[i] -= at;
+  }
+  return residuals;
+}
+
+void add_fit_figures(Findings& findings, PageSection& section, const std::string& stem, PlotInput plot,
+                     const PlotSeries& points, const std::vector<DrawnLaw>& laws, const std::string& caption) {
+  if (points.x.empty()) return;
+  PlotInput residuals{.title = plot.title + ": residuals", .x_label = plot.x_label, .y_label = "runs minus the law"};
+  const double highest = *std::max_element(points.x.begin(), points.x.end());
+  plot.series = {points};
+  for (std::size_t k = 0; k < laws.size(); ++k) {
+    const auto& [name, law, from] = laws[k];
+    PlotSeries curve{.name = name, .colour = k + 1}, within{.style = points.style};
+    constexpr int pieces = 200;
+    for (int i = 0; i <= pieces; ++i) {
+      curve.x.push_back(from + (highest - from) * i / pieces);
+      curve.y.push_back(law(curve.x.back()));
+    }
+    for (std::size_t i = 0; i < points.x.size(); ++i) {
+      if (points.x[i] < from) continue;
+      within.x.push_back(points.x[i]), within.y.push_back(points.y[i]);
+      if (!points.low.empty()) within.low.push_back(points.low[i]), within.high.push_back(points.high[i]);
+    }
+    plot.series.push_back(curve);
+    residuals.series.push_back(residuals_of(within, law, name, k + 1));
+  }
+  add_figure(findings, section, stem, plot, caption);
+  add_figure(findings, section, stem + "_residuals", residuals, "");
 }
 
 std::string suffix_of(std::size_t series, std::size_t num_series) {

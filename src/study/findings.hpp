@@ -2,6 +2,7 @@
 // What a study has found, gathered section by section: numbers for analysis.json, tables, plots, sentences for the
 // page.
 #include <filesystem>
+#include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -24,6 +25,20 @@ struct Findings {
 /// Draws stem.png and stem.svg and shows the plot in a section. A plot without a point is left out.
 void add_figure(Findings& findings, PageSection& section, const std::string& stem, const PlotInput& plot,
                 const std::string& caption);
+
+/// Points minus a law at the same x, error bars with them.
+PlotSeries residuals_of(const PlotSeries& points, const std::function<double(double)>& law, const std::string& name,
+                        std::size_t colour);
+
+/// A law over what a plot's x axis shows, from some value on.
+struct DrawnLaw {
+  std::string name;
+  std::function<double(double)> law;
+  double from = 0.0;
+};
+/// Draws points with laws, and as stem_residuals the points minus each law. `plot` brings title, labels and marks.
+void add_fit_figures(Findings& findings, PageSection& section, const std::string& stem, PlotInput plot,
+                     const PlotSeries& points, const std::vector<DrawnLaw>& laws, const std::string& caption);
 
 /// A text that names a file for a series: "" for the only one, else "-2".
 std::string suffix_of(std::size_t series, std::size_t num_series);

@@ -32,6 +32,7 @@ class StudyTest : public TemporaryFolder {
     double speed = 0.0, angle = 90.0, friction = 0.3, chipping = 0.0;
     int seed = 1;
     std::string mesh = "0.0001";
+    std::vector<double> later{};  // chipping ratios of further impacts
   };
 
   // A run's folder and line; half of what is lost is a big chip of 0.3 d, the rest chips of 0.05 d.
@@ -50,6 +51,18 @@ class StudyTest : public TemporaryFolder {
     std::ofstream(run / "fragments.csv")
         << "id,mass [kg],sphericity [-],elongation [-],flatness [-],convexity [-],resolved\n"
            "0,1e-6,0.9,0.9,0.9,0.9,1\n1,3e-8,0.6,0.7,0.5,0.8,1\n2,1e-8,0.8,0.5,0.9,0.4,1\n3,1e-9,0.1,0.1,0.1,0.1,0\n";
+    if (!row.later.empty()) {  // the pieces of the first impact lie in a folder of their own
+      fs::create_directories(run / "impact_1");
+      for (const char* file : {"size_distribution.csv", "fragments.csv"}) {
+        sizes.close();
+        fs::rename(run / file, run / "impact_1" / file);
+      }
+      std::ofstream impacts(run / "impacts.csv");
+      impacts << "impact,mass_before [kg],chipping_ratio [-],incident_energy [J]\n";
+      const double energy = 0.5 * row.speed * row.speed;
+      impacts << fmt::format("1,1,{},{}\n", row.chipping, energy);
+      for (const double chipping : row.later) impacts << fmt::format("2,1,{},{}\n", chipping, energy);
+    }
     const char* breakage_class = row.chipping < 1e-3 ? "intact" : row.chipping < 0.25 ? "chipped" : "split";
     lines_ += fmt::format("{},done,,{},{},{},{},{},end time,{},1.5e-3,1e-4,{},{},{},,{}\n", name, row.mesh, row.speed,
                           row.angle * degree, row.friction, row.seed, row.chipping, breakage_class, 0.5 * row.chipping,
@@ -198,6 +211,30 @@ TEST_F(StudyTest, FitsBreakageFunctionsAndExportsAPopulationBalance) {
   EXPECT_LT(balance["mass_error_of_one_step"].get<double>(), 1e-12);
   for (const char* file : {"selection.csv", "breakage.csv", "breakage_probability.svg", "breakage_probability.png"})
     EXPECT_TRUE(fs::exists(folder / "analysis" / file)) << file;
+}
+
+TEST_F(StudyTest, FindsTheDamageOfRepeatedImpacts) {
+  // Breakage energies at the ranks of their distribution; broken is what has lost a tenth.
+  constexpr double e50 = 100.0, sigma = 0.4, gamma = 5.0;
+  constexpr int most = 5;
+  for (const double energy : {50.0, 70.0, 100.0, 140.0})
+    for (int rank = 0; rank < 40; ++rank) {
+      double low = 1.0, high = 1e4;
+      for (int i = 0; i < 60; ++i) {
+        const double middle = std::sqrt(low * high);
+        const double below = tavares_probability(middle, e50, sigma, std::numeric_limits<double>::infinity());
+        (below < (rank + 0.5) / 40.0 ? low : high) = middle;
+      }
+      const int n = impacts_to_break(energy, low, gamma, most);
+      Row row{.speed = std::sqrt(2.0 * energy), .chipping = n == 1 ? 0.5 : 0.01, .seed = rank};
+      for (int k = 2; k <= most; ++k) row.later.push_back(k >= n ? 0.5 : 0.01);
+      add(row);
+    }
+  const auto fits = studied()["breakage_functions"][0];
+  EXPECT_NEAR(fits["tavares"]["parameters"]["E50"]["value"].get<double>(), e50, 4.0);
+  const auto found = fits["tavares_damage"]["parameters"]["gamma"];
+  EXPECT_NEAR(found["value"].get<double>(), gamma, 3.0 * found["standard_error"].get<double>());
+  EXPECT_LT(found["standard_error"].get<double>(), 0.2 * gamma);
 }
 
 TEST_F(StudyTest, SpreadsAreOfMeshesAndOfSeeds) {
