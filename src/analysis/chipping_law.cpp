@@ -9,6 +9,8 @@
 namespace knap {
 namespace {
 
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
 struct Line {
   double slope = 0.0, offset = 0.0;
 };
@@ -53,7 +55,7 @@ ChippingLaw fit_chipping_law(std::span<const Chipping> runs) {
   }
   return {.exponent = line.slope,
           .factor = std::exp(line.offset),
-          .interval = central_95(slopes),
+          .interval = kept.size() >= 2 * groups.size() ? central_95(slopes) : Interval{nan, nan},
           .num_speeds = by_speed.size(),
           .slowest = by_speed.begin()->first,
           .fastest = by_speed.rbegin()->first};

@@ -27,7 +27,7 @@ struct Chipping {
 struct ChippingLaw {
   double exponent = 0.0;
   double factor = 0.0;  ///< C [(s/m)^n]
-  Interval interval{};  ///< of the exponent, 95 %, bootstrap over the runs of each speed
+  Interval interval{};  ///< of the exponent, 95 %, bootstrap over the runs of each speed; NaN without repeats
   std::size_t num_speeds = 0;
   double slowest = 0.0, fastest = 0.0;  ///< speeds that the law is of [m/s]
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <stdexcept>
 
@@ -127,15 +128,28 @@ Collapse collapse_of(const Model& model, const Impacts& impacts, std::vector<dou
   return collapse;
 }
 
+// Mean over angles of the rms of runs about the mean of their group.
 double scatter_of(const Model& model, std::span<const ObliqueImpact> impacts) {
-  double squares = 0.0;
+  std::map<double, std::vector<double>> squares;
   for (const auto& group : groups_of(impacts)) {
     std::vector<double> values;
     for (const std::size_t i : group) values.push_back(scaled(model, impacts[i].breakage));
-    const double middle = mean(values);
-    for (const double value : values) squares += (value - middle) * (value - middle);
+    for (const double value : values)
+      squares[impacts[group.front()].angle].push_back((value - mean(values)) * (value - mean(values)));
   }
-  return std::sqrt(squares / static_cast<double>(impacts.size()));
+  std::vector<double> errors;
+  for (const auto& [angle, of_angle] : squares) errors.push_back(std::sqrt(mean(of_angle)));
+  return mean(errors);
+}
+
+// The fewest groups that are left when an angle is left out.
+std::size_t fewest_left(std::span<const ObliqueImpact> impacts) {
+  const auto groups = groups_of(impacts);
+  std::map<double, std::size_t> by_angle;
+  for (const auto& group : groups) ++by_angle[impacts[group.front()].angle];
+  std::size_t most = 0;
+  for (const auto& [angle, count] : by_angle) most = std::max(most, count);
+  return groups.size() - most;
 }
 
 }  // namespace
@@ -150,8 +164,9 @@ double BreakageCurve::operator()(double velocity) const {
 }
 
 CollapseVerdict verdict(const CollapseComparison& comparison) {
-  if (comparison.gain.low > 0.0) return CollapseVerdict::Beats;
-  return comparison.gain.high < 0.0 ? CollapseVerdict::Loses : CollapseVerdict::Undecided;
+  const double least = 1e-3 * comparison.null.left_out_rms;  // beyond what the fits find by chance
+  if (comparison.gain.low > least) return CollapseVerdict::Beats;
+  return comparison.gain.high < -least ? CollapseVerdict::Loses : CollapseVerdict::Undecided;
 }
 
 std::vector<double> angles(std::span<const ObliqueImpact> impacts) {
@@ -169,18 +184,26 @@ CollapseComparison compare_collapse(std::span<const ObliqueImpact> impacts, Fric
   const bool has_friction = std::any_of(impacts.begin(), impacts.end(), [](const auto& i) { return i.friction > 0.0; });
   if (!has_friction) throw std::invalid_argument("equivalent velocity: no wall has friction");
   const Model model{rule, true, scale}, null{rule, false, scale};
+  constexpr std::size_t num_parameters = 4;
+  if (fewest_left(impacts) <= num_parameters)
+    throw std::invalid_argument("equivalent velocity: too few speeds and angles");
   const Impacts all(impacts.begin(), impacts.end());
   std::vector<double> model_values, null_values;
   CollapseComparison result{.model = collapse_of(model, all, model_values),
                             .null = collapse_of(null, all, null_values),
                             .scatter = scatter_of(model, impacts)};
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  result.has_repeats = impacts.size() >= 2 * groups_of(impacts).size();
+  result.model.interval = result.gain = {nan, nan};
+  if (!result.has_repeats) return result;
   std::vector<double> values, gains;
   for (const auto& pick : bootstrap_picks(groups_of(impacts), samples)) {
     Impacts drawn;
     for (const std::size_t i : pick) drawn.push_back(all[i]);
     const std::vector<double> fitted = refitted(model, drawn, model_values);
     values.push_back(fitted[3]);
-    gains.push_back(mean(left_out(null, drawn, null_values)) - mean(left_out(model, drawn, fitted)));
+    gains.push_back(mean(left_out(null, drawn, refitted(null, drawn, null_values))) -
+                    mean(left_out(model, drawn, fitted)));
   }
   result.model.interval = central_95(values);
   result.gain = central_95(gains);

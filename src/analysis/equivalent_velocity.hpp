@@ -47,21 +47,22 @@ struct Collapse {
 };
 
 struct CollapseComparison {
-  Collapse model{};      ///< with the friction term
-  Collapse null{};       ///< normal component only: v sin th
-  Interval gain{};       ///< 95 % of left_out_rms of null minus model
-  double scatter = 0.0;  ///< rms of runs about the mean of their own speed and angle: what no curve can beat
+  Collapse model{};          ///< with the friction term
+  Collapse null{};           ///< normal component only: v sin th
+  Interval gain{};           ///< 95 % of left_out_rms of null minus model
+  double scatter = 0.0;      ///< as left_out_rms, of runs about the mean of their own speed and angle
+  bool has_repeats = false;  ///< else there are no intervals and no verdict
 };
 
 enum class CollapseVerdict { Beats, Loses, Undecided };
-/// By whether the interval of the gain lies above, below or around zero.
+/// By whether the interval of the gain lies above, below or around zero; undecided without repeats.
 CollapseVerdict verdict(const CollapseComparison& comparison);
 
 /// The different angles, ascending [rad].
 std::vector<double> angles(std::span<const ObliqueImpact> impacts);
 
-/// Fits both. Throws std::invalid_argument for fewer than three angles or ten impacts, or
-/// where no wall has friction.
+/// Fits both. Throws std::invalid_argument for fewer than three angles or ten impacts, where
+/// no wall has friction, or where the speeds and angles left are too few for the curve.
 CollapseComparison compare_collapse(std::span<const ObliqueImpact> impacts, FrictionRule rule,
                                     BreakageScale scale = BreakageScale::Plain, int samples = 300);
 

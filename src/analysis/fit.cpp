@@ -78,8 +78,7 @@ std::vector<double> minimum(Search& search) {
 }
 
 // Second derivatives by the parameters themselves, by central differences.
-Eigen::MatrixXd second_derivatives(const Search& search, const std::vector<double>& unit) {
-  constexpr double step = 2e-4;
+Eigen::MatrixXd second_derivatives(const Search& search, const std::vector<double>& unit, double step) {
   const auto n = static_cast<Eigen::Index>(unit.size());
   std::vector<double> at = unit;
   for (double& u : at) u = std::clamp(u, 2.0 * step, 1.0 - 2.0 * step);
@@ -112,14 +111,22 @@ Fit finished(Search& search, const std::vector<double>& unit, double scale, std:
           .errors = std::vector<double>(unit.size(), nan),
           .covariance = {},
           .is_at_end = {},
+          .is_kinked = std::vector<bool>(unit.size(), false),
           .loss = search.at(unit),
           .num_data = num_data};
   for (const double u : unit) fit.is_at_end.push_back(u < end_width || u > 1.0 - end_width);
   if (std::find(fit.is_at_end.begin(), fit.is_at_end.end(), true) != fit.is_at_end.end()) return fit;
-  const Eigen::LLT<Eigen::MatrixXd> factors(second_derivatives(search, unit));
+  constexpr double step = 2e-4, much = 2.0;
+  const Eigen::MatrixXd curvature = second_derivatives(search, unit, step);
+  const Eigen::VectorXd closer = second_derivatives(search, unit, 0.25 * step).diagonal();
+  for (Eigen::Index i = 0; i < n; ++i)  // at a kink the quotient grows as the step shrinks
+    fit.is_kinked[static_cast<std::size_t>(i)] = !(closer[i] < much * curvature(i, i));
+  const Eigen::LLT<Eigen::MatrixXd> factors(curvature);
   if (factors.info() != Eigen::Success || !(scale > 0.0)) return fit;
   fit.covariance = scale * factors.solve(Eigen::MatrixXd::Identity(n, n));
-  for (Eigen::Index i = 0; i < n; ++i) fit.errors[static_cast<std::size_t>(i)] = std::sqrt(fit.covariance(i, i));
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (!fit.is_kinked[static_cast<std::size_t>(i)])
+      fit.errors[static_cast<std::size_t>(i)] = std::sqrt(fit.covariance(i, i));
   return fit;
 }
 

@@ -21,9 +21,10 @@ struct FitParameter {
 struct Fit {
   std::vector<FitParameter> parameters;
   std::vector<double> values;
-  std::vector<double> errors;   ///< standard errors; NaN where the data leave the value open
+  std::vector<double> errors;   ///< standard errors; NaN where the data leave the value open, or the loss has a kink
   Eigen::MatrixXd covariance;   ///< empty where the data leave a value open
   std::vector<bool> is_at_end;  ///< the best value lies at an end of where it was looked for
+  std::vector<bool> is_kinked;  ///< the loss has no second derivative there: no standard error
   double loss = 0.0;            ///< sum of squares, or minus the logarithm of the likelihood
   std::size_t num_data = 0;
 
@@ -36,7 +37,7 @@ using Loss = std::function<double(std::span<const double> values)>;
 /// The response the law predicts for datum i.
 using Law = std::function<double(std::span<const double> values, std::size_t i)>;
 
-/// The least sum of squared differences to `data`; covariance s^2 (J'J)^-1 from its second derivatives. Throws
+/// The least sum of squared differences to `data`; covariance 2 s^2 over its second derivatives. Throws
 /// std::invalid_argument for fewer data than parameters.
 Fit least_squares_fit(const std::vector<FitParameter>& parameters, const Law& law, std::span<const double> data);
 /// The same from a guess: locally only, without covariance. For many fits to nearly the same data.

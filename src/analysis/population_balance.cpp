@@ -34,6 +34,8 @@ double measured_distribution(double z, std::span<const double> at, std::span<con
   if (z >= 1.0) return 1.0;
   const auto above = static_cast<std::size_t>(std::upper_bound(at.begin(), at.end(), z) - at.begin());
   const std::size_t i = std::clamp<std::size_t>(above, 1, at.size() - 1);
+  if (finer[i - 1] <= 0.0)  // nothing so fine: no power law
+    return std::max(0.0, finer[i] * (z - at[i - 1]) / (at[i] - at[i - 1]));
   const double slope = std::log(finer[i] / finer[i - 1]) / std::log(at[i] / at[i - 1]);
   return std::min(1.0, finer[i - 1] * std::pow(z / at[i - 1], slope));
 }

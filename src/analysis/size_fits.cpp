@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace knap {
 namespace {
@@ -14,6 +15,7 @@ FitParameter size_parameter(const char* name, std::span<const double> sizes) {
 }  // namespace
 
 std::vector<double> sieve_series(double largest, double smallest) {
+  if (!(smallest > 0.0) || !std::isfinite(largest)) throw std::invalid_argument("sieves: sizes must be above 0");
   std::vector<double> sieves;
   for (int i = 0;; ++i) {
     const double size = largest * std::exp2(-0.25 * i);

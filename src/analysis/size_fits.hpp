@@ -8,7 +8,8 @@
 
 namespace knap {
 
-/// Sieves of the series 2^(1/4), descending from `largest` to `smallest` [m].
+/// Sieves of the series 2^(1/4), descending from `largest` to `smallest` [m]. Throws std::invalid_argument
+/// unless both are above 0.
 std::vector<double> sieve_series(double largest, double smallest);
 /// The mass fraction that passes each sieve, of a distribution ascending in size.
 std::vector<double> passing(std::span<const SizeRow> rows, std::span<const double> sieves);

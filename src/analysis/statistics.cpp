@@ -1,6 +1,7 @@
 #include "analysis/statistics.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -36,6 +37,7 @@ double quantile(std::vector<double> values, double part) {
   const auto below_rank = static_cast<std::size_t>(rank);
   const std::size_t above_rank = std::min(below_rank + 1, values.size() - 1);
   const double t = rank - static_cast<double>(below_rank);
+  if (values[below_rank] == values[above_rank]) return values[below_rank];  // also where both are infinite
   return (1.0 - t) * values[below_rank] + t * values[above_rank];
 }
 
@@ -64,6 +66,13 @@ std::vector<std::vector<std::size_t>> bootstrap_picks(const std::vector<std::vec
 
 Interval mean_interval(std::span<const double> values) {
   if (values.size() < 2) return {nan, nan};
+  // Student's t at 97.5 % for 1 to 8 degrees of freedom: so few values say too little of their own distribution.
+  constexpr std::array t{12.706, 4.303, 3.182, 2.776, 2.571, 2.447, 2.365, 2.306};
+  if (values.size() - 2 < t.size()) {
+    const double half =
+        t[values.size() - 2] * standard_deviation(values) / std::sqrt(static_cast<double>(values.size()));
+    return {mean(values) - half, mean(values) + half};
+  }
   std::vector<double> means;
   for (const auto& pick : bootstrap_picks(values.size())) {
     double sum = 0.0;

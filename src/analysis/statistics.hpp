@@ -30,7 +30,7 @@ std::vector<std::vector<std::size_t>> bootstrap_picks(std::size_t size, int samp
 std::vector<std::vector<std::size_t>> bootstrap_picks(const std::vector<std::vector<std::size_t>>& groups, int samples,
                                                       std::uint64_t seed = 1);
 
-/// Bootstrap interval of the mean, 95 %, percentile method. NaN for fewer than two values.
+/// Of the mean, 95 %: percentile bootstrap, below ten values Student's. NaN for fewer than two.
 Interval mean_interval(std::span<const double> values);
 
 }  // namespace knap

@@ -4,6 +4,7 @@
 #include "app/commands.hpp"
 #include "app/terminal.hpp"
 #include "config/units.hpp"
+#include "study/study_runs.hpp"
 #include "study/write_study.hpp"
 
 namespace knap {
@@ -13,9 +14,7 @@ namespace fs = std::filesystem;
 
 std::string title_of(const std::vector<fs::path>& folders) {
   std::string title;
-  for (const fs::path& folder : folders)
-    title +=
-        (title.empty() ? "" : " + ") + (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
+  for (const fs::path& folder : folders) title += (title.empty() ? "" : " + ") + campaign_name(folder);
   return title;
 }
 
@@ -38,6 +37,7 @@ ExitCode analyse_command(const AnalyseArguments& arguments) {
   const fs::path out = arguments.out.empty() ? arguments.folders.front() : arguments.out;
   const StudyOutcome outcome = write_study(arguments.folders, out / "analysis", out / "report.html", options);
   if (is_terminal(STDOUT_FILENO)) fmt::print("\r\x1b[K");
+  for (const std::string& run : outcome.unreadable) fmt::print(stderr, "warning: left out: {}\n", run);
   for (const std::string& verdict : outcome.verdicts) fmt::print("{}\n", verdict);
   fmt::print("{} runs analysed, {} failed, {} not done; {}, plots and tables in {}\n", outcome.runs, outcome.failed,
              outcome.waiting, (out / "report.html").string(), (out / "analysis").string());

@@ -148,6 +148,16 @@ std::unique_ptr<Engine> engine_of(const CampaignArguments& arguments, const Camp
   return make_local_engine(num_jobs(arguments));
 }
 
+// The runs are done whatever becomes of their analysis, which is made again the next time.
+bool analyses(const fs::path& folder) {
+  try {
+    return analyse_command({.folders = {folder}}) == ExitCode::Ok;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "error: the runs are done, but not analysed: {}\n", error.what());
+    return false;
+  }
+}
+
 }  // namespace
 
 ExitCode campaign_plan_command(const CampaignArguments& arguments) {
@@ -197,8 +207,8 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
              folder.results().string());
   std::fflush(stdout);
   const bool has_new_runs = end.done > end.done_before || !fs::exists(folder.path / "report.html");
-  if (end.done > 0 && has_new_runs) analyse_command({.folders = {folder.path}});
-  return end.failed > 0 ? ExitCode::Failure : ExitCode::Ok;
+  const bool is_analysed = end.done == 0 || !has_new_runs || analyses(folder.path);
+  return end.failed > 0 || !is_analysed ? ExitCode::Failure : ExitCode::Ok;
 }
 
 }  // namespace knap

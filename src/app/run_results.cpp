@@ -43,10 +43,10 @@ void write_compression(const RunFolder& folder, const RunOutcome& outcome, bool 
 
 void write_results(const Simulation& s, const RunOutcome& outcome, const SessionOptions& options, RunLog& log) {
   const RunFolder& folder = options.folder;
-  write_report(folder.report(), s, outcome);
   write_fragments(folder.fragments(), outcome);
   write_size_distribution(folder.size_distribution(), outcome, s);
   write_compression(folder, outcome, options.output.picture, log);
+  write_report(folder.report(), s, outcome);  // last: a run with a report has all its results
   if (options.output.picture && outcome.session.stop_reason != StopReason::Interrupted) draw(folder, s, outcome, log);
   show(summary(s, outcome, folder.path.string(), shows_utf8()), options.quiet, log);
 }

@@ -170,19 +170,20 @@ class Session {
 
   double effort_of(std::size_t run) const { return options_.efforts.empty() ? 1.0 : options_.efforts[run]; }
 
-  // What runs is half done, on the average.
-  double effort_of_running() const {
+  double effort_in(RunState state) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < status_.size(); ++i)
-      if (status_[i].state == RunState::Running) sum += 0.5 * effort_of(i);
+      if (status_[i].state == state) sum += effort_of(i);
     return sum;
   }
-  double effort_made() const { return effort_here_ + effort_of_running(); }
-  double effort_left() const {
-    double sum = effort_of_running();
-    for (std::size_t i = 0; i < status_.size(); ++i)
-      if (status_[i].state == RunState::Waiting) sum += effort_of(i);
-    return sum;
+  // What runs is half done, on the average; what is queued is not begun.
+  double effort_half_done(std::size_t queued) const {
+    const double share = running_ > 0 ? 1.0 - static_cast<double>(queued) / static_cast<double>(running_) : 0.0;
+    return 0.5 * share * effort_in(RunState::Running);
+  }
+  double effort_made(std::size_t queued) const { return effort_here_ + effort_half_done(queued); }
+  double effort_left(std::size_t queued) const {
+    return effort_in(RunState::Waiting) + effort_in(RunState::Running) - effort_half_done(queued);
   }
 
   CampaignProgress progress() const {
@@ -197,7 +198,8 @@ class Session {
     now.running -= engine.queued;
     now.waiting += engine.queued;
     if (done_here_ > 0)
-      now.seconds_left = std::chrono::duration<double>(Clock::now() - began_).count() * effort_left() / effort_made();
+      now.seconds_left = std::chrono::duration<double>(Clock::now() - began_).count() * effort_left(engine.queued) /
+                         effort_made(engine.queued);
     return now;
   }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 #include "study/condition_plots.hpp"
@@ -77,7 +78,13 @@ void add_thresholds(Findings& findings, const Study& study, const Series& series
       std::vector<double> speeds;
       for (const auto& draw : drawn_conditions(list, bootstrap_samples))
         speeds.push_back(speed_at_level(study, list, response, level, &draw));
-      const Interval interval = central_95(speeds);
+      // A draw that does not reach the level would at a higher speed.
+      constexpr double infinity = std::numeric_limits<double>::infinity(),
+                       nan = std::numeric_limits<double>::quiet_NaN();
+      for (double& reached : speeds)
+        if (std::isnan(reached)) reached = infinity;
+      const Interval interval =
+          has_repeats(list) ? Interval{quantile(speeds, 0.025), quantile(speeds, 0.975)} : Interval{nan, nan};
       json["thresholds"].push_back({{"measure", response},
                                     {"level", level},
                                     {"angle_deg", steepest / degree},

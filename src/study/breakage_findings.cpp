@@ -38,6 +38,7 @@ Impacts impacts_of(const Study& study, const Series& series, double broken) {
     if (condition.angle != impacts.angle) continue;
     for (const std::size_t i : condition.runs) {
       const StudyRun& run = study.runs[i];
+      if (!std::isfinite(run.chipping_ratio())) continue;
       const bool is_broken = run.chipping_ratio() >= broken;
       const double energy = 0.5 * run.speed * run.speed;
       impacts.runs.push_back(i);
@@ -213,6 +214,7 @@ Measured measured_over_size(const Study& study, const Impacts& impacts) {
   Measured measured;
   if (broken.empty()) return measured;
   measured.floor = resolution_floor(study, broken);
+  if (measured.floor >= 1.0) return measured;
   measured.z = sieve_series(1.0, measured.floor);
   measured.finer = mean_passing(study, broken, measured.z);
   measured.finer.front() = 1.0;  // B(y|y) = 1: what is broken of a class is at most as large as the class
@@ -223,13 +225,13 @@ void export_balance(Findings& findings, PageSection& section, const Series& seri
                     const Impacts& impacts, const Fits& fits, const std::string& suffix, Json& json) {
   const Measured measured = measured_over_size(study, impacts);
   if (measured.z.size() < 4 || !fits.vogel) {
-    section.paragraphs.push_back("No population balance is exported: no particle broke.");
+    section.paragraphs.push_back("No population balance is exported: the mesh resolves too few sieves of the pieces.");
     return;
   }
   const Fit fit = fit_breakage_distribution(measured.z, measured.finer),
             austin = fit_austin(measured.z, measured.finer);
-  add_rows(section, "B(x|y), tanh", fit);
-  add_rows(section, "B(x|y), two terms", austin);
+  add_values(section, "B(x|y), tanh", fit);
+  add_values(section, "B(x|y), two terms", austin);
   const auto rms = [&](const Fit& of) { return std::sqrt(of.loss / static_cast<double>(of.num_data)); };
   section.rows.push_back({"B(x|y): rms of the fits, tanh and two terms",
                           fmt::format("{:.2g}, {:.2g}", rms(fit), rms(austin)), "",
@@ -270,6 +272,8 @@ void export_balance(Findings& findings, PageSection& section, const Series& seri
     selection_rows.push_back(std::move(row));
   }
   constexpr double allowed = 1e-12;
+  if (!breakage.allFinite() || breakage.minCoeff() < -allowed)
+    throw RuntimeFailure("population balance: a class of the breakage matrix is negative or no number");
   if (worst > allowed)
     throw RuntimeFailure(fmt::format("population balance: a step of grinding changes the mass by {:.1e}", worst));
   std::vector<std::string> selection_columns{"energy [J/kg]"}, breakage_columns{"upper edge [m]"};
@@ -313,6 +317,7 @@ void export_balance(Findings& findings, PageSection& section, const Series& seri
         {"x_W_min_J_m_per_kg", fits.vogel->value("W_min") * diameter}}},
       {"breakage_is", "the mean of the broken particles, between sieves by straight lines of the logarithms"},
       {"breakage_laws", laws},
+      {"selection_is_resolved", fits.vogel->covariance.size() > 0},
       {"assumption", "particles of all sizes break alike: only one size was run"},
       {"mass_error_of_one_step", worst}};
   write_text_atomically(findings.folder / ("population_balance" + suffix + ".json"), balance.dump(1) + "\n");

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "analysis/chipping_law.hpp"
 #include "study/condition_plots.hpp"
@@ -21,7 +20,7 @@ constexpr std::array classes{"intact", "chipped", "split", "fragmented"};
 std::string class_of(const Study& study, const Condition& condition) {
   std::map<std::string, int> counts;
   for (const std::size_t i : condition.runs) ++counts[study.runs[i].breakage_class];
-  std::string most = classes[0];
+  std::string most;
   for (const char* one : classes)
     if (counts[one] > counts[most]) most = one;
   return most;
@@ -62,18 +61,20 @@ struct Part {
   std::vector<Chipping> runs{};
 };
 
-// "Above the threshold" can be read in two ways, and the exponent depends on it: what mostly chips, and all that loses
-// more than a hundredth on average.
+// "Above the threshold" can be read in two ways, and the exponent depends on it: what mostly chips, and what loses
+// between a hundredth and a quarter on average.
 std::vector<Part> parts_of(const Study& study, const Series& series) {
-  constexpr double threshold = 0.01;
+  constexpr double threshold = 0.01, largest_chipping = 0.25;
   const double steepest = angles_of(series).back();
   const std::string straight_name = fmt::format("speed at {:.3g}°", steepest / degree);
-  Part chipped{straight_name, "most runs chipped"}, above{straight_name, "mean loss above 1 %"};
+  Part chipped{straight_name, "most runs chipped"}, above{straight_name, "mean loss 1 to 25 %"};
   Part normal{"normal velocity, all angles", "most runs chipped"};
   for (const Condition& condition : series.conditions) {
     const bool is_chipped = class_of(study, condition) == "chipped";
-    const bool is_above = mean_of(study, condition.runs, "chipping_ratio") >= threshold;
+    const double loss = mean_of(study, condition.runs, "chipping_ratio");
+    const bool is_above = loss >= threshold && loss <= largest_chipping;
     for (const double ratio : values_of(study, condition, [](const StudyRun& run) { return run.chipping_ratio(); })) {
+      if (!std::isfinite(ratio)) continue;
       if (condition.angle == steepest && is_chipped) chipped.runs.push_back({condition.speed, ratio});
       if (condition.angle == steepest && is_above) above.runs.push_back({condition.speed, ratio});
       // Conditions of one normal velocity up to rounding are one speed.
@@ -133,7 +134,7 @@ void add_laws(Findings& findings, const Study& study, const Series& series, cons
   section.paragraphs.push_back(
       "Chipping ratio = C vⁿ, by the logarithms of the means at each speed: of the speeds at which most runs are "
       "chipped "
-      "(one piece holds 75 %), and of all that lose more than 1 % on average. The interval is 95 %, by bootstrap over "
+      "(one piece holds 75 %), and of those that lose 1 to 25 % on average. The interval is 95 %, by bootstrap over "
       "runs.");
   int number = 0;
   for (const Part& part : parts_of(study, series)) {

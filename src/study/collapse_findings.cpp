@@ -19,7 +19,7 @@ std::vector<ObliqueImpact> impacts_of(const Study& study, const Series& series, 
   std::vector<ObliqueImpact> impacts;
   for (const Condition& condition : series.conditions)
     for (const double breakage : values_of(study, condition, measure(response).value))
-      impacts.push_back({condition.speed, condition.angle, condition.friction, breakage});
+      if (std::isfinite(breakage)) impacts.push_back({condition.speed, condition.angle, condition.friction, breakage});
   return impacts;
 }
 
@@ -82,7 +82,8 @@ void tell(Findings& findings, PageSection& section, const Series& series, const 
   model["a_with_known_friction"] = found.model.value / friction;
   model["a_interval"] = json_of(a);
   model["wall_friction"] = friction;
-  const std::string answer = sentence(verdict(found));
+  const std::string answer =
+      found.has_repeats ? sentence(verdict(found)) : "no verdict without repeats: run several seeds";
   json = {{"model", model},
           {"null", collapse_json(found.null, list)},
           {"gain_of_left_out_rms", json_of(found.gain)},
@@ -98,7 +99,8 @@ void tell(Findings& findings, PageSection& section, const Series& series, const 
   add("left-out error of v_eq", fmt::format("{:.4f}", found.model.left_out_rms), "", "");
   add("left-out error of v sin θ", fmt::format("{:.4f}", found.null.left_out_rms), "", "");
   add("gain", fmt::format("{:.4f}", found.null.left_out_rms - found.model.left_out_rms), shown(found.gain), answer);
-  add("scatter of runs alike", fmt::format("{:.4f}", found.scatter), "", "what no curve can beat");
+  add("scatter of runs alike", fmt::format("{:.4f}", found.scatter), "",
+      "about the means of their own speed and angle");
   findings.verdicts.push_back(
       fmt::format("{}: by the {}, {} (error on an angle left out {:.3f} against {:.3f}; a μ = {}).",
                   titled("Equivalent velocity", series), name, answer, found.model.left_out_rms,

@@ -66,6 +66,12 @@ double mean_of(const Study& study, const std::vector<std::size_t>& runs, const s
   return sum / static_cast<double>(runs.size());
 }
 
+bool has_repeats(const std::vector<Condition>& list) {
+  std::size_t runs = 0;
+  for (const Condition& condition : list) runs += condition.runs.size();
+  return runs >= 2 * list.size();
+}
+
 std::vector<std::vector<std::vector<std::size_t>>> drawn_conditions(const std::vector<Condition>& list, int samples) {
   std::vector<std::vector<std::size_t>> groups;
   for (const Condition& condition : list) groups.push_back(condition.runs);

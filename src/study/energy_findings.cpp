@@ -30,7 +30,7 @@ void add_energy_findings(Findings& findings, const Study& study) {
     }
     for (const Condition& condition : all[k].conditions)
       for (const double error : values_of(study, condition, measure("energy_closure_error").value))
-        worst = std::max(worst, error);
+        worst = std::isnan(error) ? error : std::max(worst, error);
     PageSection section{.title = titled("Energy", all[k])};
     section.rows.push_back(
         {"largest closure error of the ledger", shown(100.0 * worst) + " %", "", "of the incident energy"});

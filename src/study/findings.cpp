@@ -68,11 +68,12 @@ std::string titled(const std::string& title, const Series& series) {
 
 std::string shown(double value) {
   constexpr double round_off = 1e-6;  // of fitted values that are as good as zero
-  if (!std::isfinite(value)) return "not resolved";
+  if (std::isinf(value)) return "above what was run";
+  if (std::isnan(value)) return "not resolved";
   return std::abs(value) < round_off ? "0" : fmt::format("{:.3g}", value);
 }
 std::string shown(const Interval& interval) {
-  return std::isfinite(interval.low) ? fmt::format("[{}, {}]", shown(interval.low), shown(interval.high)) : "";
+  return !std::isnan(interval.low) ? fmt::format("[{}, {}]", shown(interval.low), shown(interval.high)) : "";
 }
 std::string shown(double value, const Interval& interval) {
   const std::string ends = shown(interval);
@@ -88,17 +89,29 @@ Json json_of(const Fit& fit) {
     json[fit.parameters[i].name] = {{"value", fit.values[i]},
                                     {"standard_error", json_of(fit.errors[i])},
                                     {"unit", fit.parameters[i].unit},
-                                    {"at_end_of_range", static_cast<bool>(fit.is_at_end[i])}};
+                                    {"at_end_of_range", static_cast<bool>(fit.is_at_end[i])},
+                                    {"at_kink", static_cast<bool>(fit.is_kinked[i])}};
   Json covariance = nullptr;
   if (fit.covariance.size() > 0) {
     covariance = Json::array();
     for (Eigen::Index i = 0; i < fit.covariance.rows(); ++i) {
       covariance.push_back(Json::array());
-      for (Eigen::Index j = 0; j < fit.covariance.cols(); ++j) covariance.back().push_back(fit.covariance(i, j));
+      for (Eigen::Index j = 0; j < fit.covariance.cols(); ++j)
+        covariance.back().push_back(json_of(fit.covariance(i, j)));
     }
   }
   return {{"parameters", json}, {"covariance", covariance}, {"data", fit.num_data}};
 }
+
+namespace {
+
+std::string remark_of(const Fit& fit, std::size_t i) {
+  if (fit.is_at_end[i]) return "at the end of its range: the data leave it open";
+  if (fit.covariance.size() == 0) return "the data leave it open";
+  return fit.is_kinked[i] ? "at a kink of the likelihood: no standard error" : "";
+}
+
+}  // namespace
 
 void add_rows(PageSection& section, const std::string& law, const Fit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {
@@ -106,8 +119,13 @@ void add_rows(PageSection& section, const std::string& law, const Fit& fit) {
     const std::string unit = p.unit == "-" ? "" : " " + p.unit;
     section.rows.push_back({law + ": " + p.name, fmt::format("{:.4g}{}", fit.values[i], unit),
                             std::isfinite(fit.errors[i]) ? fmt::format("± {:.2g}", fit.errors[i]) : "",
-                            fit.is_at_end[i] ? "at the end of its range: the data leave it open" : ""});
+                            remark_of(fit, i)});
   }
+}
+
+void add_values(PageSection& section, const std::string& law, Fit fit) {
+  std::fill(fit.errors.begin(), fit.errors.end(), std::nan(""));
+  add_rows(section, law, fit);
 }
 
 void write_table(const std::filesystem::path& file, const std::vector<std::string>& columns,

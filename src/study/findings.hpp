@@ -53,8 +53,9 @@ nlohmann::ordered_json json_of(double value);
 nlohmann::ordered_json json_of(const Interval& interval);
 /// Values, standard errors, covariance, whether at an end of the range, units.
 nlohmann::ordered_json json_of(const Fit& fit);
-/// A row for each parameter.
+/// A row for each parameter; the second without standard errors, for data that depend on each other.
 void add_rows(PageSection& section, const std::string& law, const Fit& fit);
+void add_values(PageSection& section, const std::string& law, Fit fit);
 
 /// A table of numbers as CSV, in one step; NaN as an empty cell.
 void write_table(const std::filesystem::path& file, const std::vector<std::string>& columns,

@@ -23,11 +23,10 @@ constexpr double least_loss = 0.01, largest_fines = 0.25;
 
 void add_law(PageSection& section, const Condition& condition, const std::string& name, const Fit& fit,
              const std::string& exponent, const std::string& size) {
-  section.rows.push_back({fmt::format("{:g} m/s: {} {}", condition.speed, name, exponent), shown(fit.value(exponent)),
-                          std::isfinite(fit.error(exponent)) ? "± " + shown(fit.error(exponent)) : "",
-                          fit.is_at_end[0] || fit.is_at_end[1]
-                              ? "at the end of its range: not of this form"
-                              : fmt::format("{} = {:.3g} mm", size, 1e3 * fit.value(size))});
+  section.rows.push_back(
+      {fmt::format("{:g} m/s: {} {}", condition.speed, name, exponent), shown(fit.value(exponent)), "",
+       fit.is_at_end[0] || fit.is_at_end[1] ? "at the end of its range: not of this form"
+                                            : fmt::format("{} = {:.3g} mm", size, 1e3 * fit.value(size))});
 }
 
 // Rosin and Rammler's between the floor and the largest piece, Gates, Gaudin and Schuhmann's between the floor and a

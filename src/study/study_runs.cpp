@@ -4,10 +4,11 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <optional>
 #include <set>
 #include <tuple>
 
@@ -25,10 +26,14 @@ namespace fs = std::filesystem;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array conditions_of_run{"impact.speed", "impact.angle", "impact.wall_friction"};
 
-bool starts_a_number(const std::string& cell) {
-  char* end = nullptr;
-  std::strtod(cell.c_str(), &end);
-  return !cell.empty() && end == cell.c_str() + cell.size();
+// Nothing for text, what is not finite or no number of its own (a hash may look like one).
+std::optional<double> number_in(const std::string& column, const std::string& cell) {
+  if (column == "state_hash" || column == "version") return std::nullopt;
+  double value = 0.0;
+  const char* end = cell.data() + cell.size();
+  const auto [read, error] = std::from_chars(cell.data(), end, value);
+  if (error != std::errc() || read != end || !std::isfinite(value)) return std::nullopt;
+  return value;
 }
 
 // "impact.speed" of "impact.speed [m/s]".
@@ -54,6 +59,7 @@ StudyTable table_of(const fs::path& folder) {
   std::ifstream text(file);
   StudyTable table;
   for (std::string line; std::getline(text, line);) {
+    if (trimmed(line).empty()) continue;
     std::vector<std::string> cells = csv_cells(line);
     if (table.columns.empty())
       table.columns = std::move(cells);
@@ -81,7 +87,9 @@ ShapeMeans shapes_in(const fs::path& fragments) {
   std::getline(file, line);
   const std::vector<std::string> header = csv_cells(line);
   const auto column = [&](std::string_view name) {
-    return static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
+    const auto found = std::find(header.begin(), header.end(), name);
+    if (found == header.end()) throw InputError(fmt::format("{}: has no column {}", fragments.string(), name));
+    return static_cast<std::size_t>(found - header.begin());
   };
   const std::array shape{column("sphericity [-]"), column("elongation [-]"), column("flatness [-]"),
                          column("convexity [-]")};
@@ -103,6 +111,8 @@ ShapeMeans shapes_in(const fs::path& fragments) {
 
 std::vector<SizeRow> sizes_in(const fs::path& file) {
   const CsvColumns columns = read_csv(file);
+  if (columns.values.size() < 3 || columns.values[0].empty())
+    throw InputError(fmt::format("{}: has no sizes", file.string()));
   std::vector<SizeRow> rows;
   for (std::size_t i = 0; i < columns.values[0].size(); ++i)
     rows.push_back({columns.values[0][i], columns.values[1][i], static_cast<Index>(columns.values[2][i])});
@@ -119,36 +129,75 @@ std::vector<ImpactRow> impacts_in(const fs::path& file) {
   return rows;
 }
 
-void read_case(StudyRun& run) {
-  const RunConfig config = load_config(run.folder / "effective.toml");
-  if (!has_wall(config) || config.particles.size() != 1) return;
-  run.speed = config.impact.speed, run.angle = config.impact.angle, run.friction = config.impact.wall_friction;
+// Speed, angle and friction of an impact on the wall. Returns all else that the case says but mesh, seeds and output.
+std::string read_case(StudyRun& run) {
+  RunConfig config = load_config(run.folder / "effective.toml");
+  if (has_wall(config) && config.particles.size() == 1) {
+    run.has_wall = true;
+    run.speed = config.impact.speed, run.angle = config.impact.angle, run.friction = config.impact.wall_friction;
+    config.impact.speed = config.impact.angle = config.impact.wall_friction = 0.0;
+  }
+  for (ParticleConfig& particle : config.particles) {
+    particle.mesh = {};
+    particle.fracture.weibull_seed = not_given;
+  }
+  config.run = {}, config.output = {};
+  return effective_toml(config);
 }
 
-StudyRun run_of(const fs::path& folder, const StudyTable& table, const std::vector<std::string>& cells, double sieve) {
+StudyRun run_of(const fs::path& folder, const StudyTable& table, const std::vector<std::string>& cells) {
   StudyRun run{.name = cells[0], .folder = folder / "runs" / cells[0]};
+  run.rest_of_case = read_case(run);
   for (const std::size_t i : varied_columns(table.columns)) {
     const std::string key = key_of(table.columns[i]);
-    if (std::find(conditions_of_run.begin(), conditions_of_run.end(), key) != conditions_of_run.end()) continue;
+    const bool is_condition =
+        std::find(conditions_of_run.begin(), conditions_of_run.end(), key) != conditions_of_run.end();
+    if (is_condition && run.has_wall) continue;
     add_label(is_seed(key) ? run.seed : is_mesh(key) ? run.mesh : run.series, key, table.columns[i], cells[i]);
   }
   for (std::size_t i = 3; i < cells.size(); ++i) {
     if (table.columns[i] == "breakage.class") run.breakage_class = cells[i];
-    if (starts_a_number(cells[i])) run.numbers[table.columns[i]] = std::stod(cells[i]);
+    if (const auto number = number_in(table.columns[i], cells[i])) run.numbers[table.columns[i]] = *number;
   }
-  read_case(run);
   run.diameter = run.number("sanity.diameter");
   run.element_size = run.number("mesh.edge_mean");
+  if (!(run.diameter > 0.0) || !(run.element_size > 0.0))
+    throw InputError("results.csv has no sanity.diameter and mesh.edge_mean above 0");
   run.impacts = impacts_in(run.folder / "impacts.csv");
   const fs::path pieces = run.impacts.empty() ? run.folder : run.folder / "impact_1";
   run.sizes = sizes_in(pieces / "size_distribution.csv");
   run.shape = shapes_in(pieces / "fragments.csv");
-  if (sieve >= run.diameter)
-    throw InputError(fmt::format("the sieve of {:.4g} mm is not finer than the particle of {:.4g} mm ({})", 1e3 * sieve,
-                                 1e3 * run.diameter, run.name));
-  const std::array sieves{sieve > 0.0 ? sieve : run.diameter * std::exp2(-0.25)};
-  run.breakage_ratio = passing(run.sizes, sieves)[0];
   return run;
+}
+
+// The default is the next finer sieve below what a whole particle passes: of the least broken run of its diameter.
+void sieve_runs(Study& study) {
+  std::map<double, const StudyRun*> wholest;
+  for (const StudyRun& run : study.runs) {
+    const StudyRun*& best = wholest[run.diameter];
+    if (best == nullptr || run.sizes.back().sieve_size > best->sizes.back().sieve_size) best = &run;
+  }
+  for (StudyRun& run : study.runs) {
+    const double whole = wholest[run.diameter]->sizes.back().sieve_size;
+    if (study.sieve >= whole)
+      throw InputError(fmt::format("the sieve of {:.4g} mm is not finer than the particle, which passes {:.4g} mm ({})",
+                                   1e3 * study.sieve, 1e3 * whole, run.name));
+    const std::array sieves{study.sieve > 0.0 ? study.sieve : std::min(whole, run.diameter) * std::exp2(-0.25)};
+    run.breakage_ratio = passing(run.sizes, sieves)[0];
+  }
+}
+
+// Campaigns that differ in what none of them varies are series of their own.
+void part_campaigns(Study& study, const std::vector<std::string>& campaign_of_run) {
+  std::map<std::string, std::set<std::string>> cases, campaigns;
+  for (std::size_t i = 0; i < study.runs.size(); ++i) campaigns[study.runs[i].series].insert(campaign_of_run[i]);
+  for (const StudyRun& run : study.runs) cases[run.series].insert(run.rest_of_case);
+  for (std::size_t i = 0; i < study.runs.size(); ++i) {
+    StudyRun& run = study.runs[i];
+    const std::string series = run.series;
+    if (campaigns[series].size() > 1 && cases[series].size() > 1)
+      run.series += (series.empty() ? "" : ", ") + campaign_of_run[i];
+  }
 }
 
 // Columns that only some campaigns have are empty for the others.
@@ -174,22 +223,41 @@ double StudyRun::number(const std::string& column) const {
   return found == numbers.end() ? nan : found->second;
 }
 
+std::string campaign_name(const fs::path& folder) {
+  return (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
+}
+
 Study read_study(std::span<const fs::path> folders, double sieve) {
   Study study{.sieve = sieve};
+  std::vector<std::string> campaign_of_run;
+  std::set<fs::path> seen;
+  std::map<std::string, int> names;
   for (const fs::path& folder : folders) {
+    if (fs::exists(folder) && !seen.insert(fs::canonical(folder)).second)
+      throw InputError(fmt::format("{}: is given twice", folder.string()));
     const StudyTable table = table_of(folder);
-    const std::string prefix =
-        folders.size() > 1 ? fs::absolute(folder).lexically_normal().filename().string() + "/" : "";
+    std::string name = campaign_name(folder);
+    if (const int number = ++names[name]; number > 1) name += fmt::format("-{}", number);
+    const std::string prefix = folders.size() > 1 ? name + "/" : "";
     add_table(study.table, table, prefix);
     for (const auto& cells : table.rows) {
       if (cells[1] == "failed") ++study.failed;
       if (cells[1] == "waiting" || cells[1] == "running") ++study.waiting;
       if (cells[1] != "done") continue;
-      study.runs.push_back(run_of(folder, table, cells, sieve));
-      study.runs.back().name = prefix + study.runs.back().name;
+      try {
+        study.runs.push_back(run_of(folder, table, cells));
+        study.runs.back().name = prefix + study.runs.back().name;
+        campaign_of_run.push_back(name);
+      } catch (const InputError& error) {
+        study.unreadable.push_back(fmt::format("{}{}: {}", prefix, cells[0], error.what()));
+      }
     }
   }
-  if (study.runs.empty()) throw InputError(fmt::format("{}: no run is done yet", folders.front().string()));
+  if (study.runs.empty())
+    throw InputError(study.unreadable.empty() ? fmt::format("{}: no run is done yet", folders.front().string())
+                                              : study.unreadable.front());
+  sieve_runs(study);
+  part_campaigns(study, campaign_of_run);
   return study;
 }
 

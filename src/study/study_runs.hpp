@@ -23,7 +23,8 @@ struct ImpactRow {
 struct StudyRun {
   std::string name{};
   std::filesystem::path folder{};
-  double speed = 0.0;         ///< [m/s]; 0 = the particle does not strike a wall
+  bool has_wall = false;      ///< one particle strikes the plane z = 0; else speed, angle and friction are 0
+  double speed = 0.0;         ///< [m/s]
   double angle = 0.0;         ///< from the plane of the wall [rad]
   double friction = 0.0;      ///< of the wall
   double diameter = 0.0;      ///< [m]
@@ -31,6 +32,7 @@ struct StudyRun {
   std::string series{};       ///< what else varies but speed, angle, mesh and seeds: "diameter = 0.001 m"; "" = nothing
   std::string mesh{};         ///< keys of the mesh that vary
   std::string seed{};         ///< seeds that vary
+  std::string rest_of_case{};  ///< all that the case says but speed, angle, wall friction, mesh, seeds and output
   std::string breakage_class{};
   std::map<std::string, double> numbers{};  ///< of results.csv; a cell that is empty is not there
   std::vector<SizeRow> sizes{};             ///< ascending
@@ -52,8 +54,12 @@ struct Study {
   std::vector<StudyRun> runs{};  ///< done
   StudyTable table{};            ///< all, of the first folder's columns and what others add
   std::size_t failed = 0, waiting = 0;
-  double sieve = 0.0;  ///< of the breakage ratio [m]; 0 = the diameter over 2^(1/4)
+  std::vector<std::string> unreadable{};  ///< runs that are done but cannot be read, and why
+  double sieve = 0.0;                     ///< of the breakage ratio [m]; 0 = the diameter over 2^(1/4)
 };
+
+/// The last part of a folder's name.
+std::string campaign_name(const std::filesystem::path& folder);
 
 /// Reads the folders of campaigns. `sieve`: of the breakage ratio [m]; 0 = each diameter over 2^(1/4). Throws
 /// InputError naming folder and what is wrong; where no run is done.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "study/condition_plots.hpp"
@@ -23,7 +24,8 @@ double energy_of_breaking(const StudyRun& run) {
 // Differences of lost mass that count as none: an intact particle may lose as much.
 constexpr double negligible = 1e-3;
 
-// The mean at a speed between those run, linearly; with which runs of each side, for the bootstrap.
+// The mean at a speed between those run, by a straight line of the logarithms where something is lost at both: the
+// curves are steep there, and a line through the values themselves lies above them.
 std::optional<double> at_speed(const Study& study, const std::vector<Condition>& list, const std::string& response,
                                double speed, const std::vector<std::vector<std::size_t>>& runs) {
   const auto mean_at = [&](std::size_t k) { return mean_of(study, runs[k], response); };
@@ -32,8 +34,13 @@ std::optional<double> at_speed(const Study& study, const std::vector<Condition>&
     if (std::abs(list[k].speed - speed) <= same * speed) return mean_at(k);
   for (std::size_t k = 1; k < list.size(); ++k)
     if (list[k - 1].speed < speed && speed < list[k].speed) {
+      const double before = mean_at(k - 1), after = mean_at(k);
+      if (before > 0.0 && after > 0.0) {
+        const double t = std::log(speed / list[k - 1].speed) / std::log(list[k].speed / list[k - 1].speed);
+        return before * std::pow(after / before, t);
+      }
       const double t = (speed - list[k - 1].speed) / (list[k].speed - list[k - 1].speed);
-      return (1.0 - t) * mean_at(k - 1) + t * mean_at(k);
+      return (1.0 - t) * before + t * after;
     }
   return std::nullopt;
 }
@@ -79,6 +86,12 @@ TangentialEffect tangential_effect(const Study& study, const Series& series, con
   }
   if (effect.value.size() < 3) return effect;
   effect.slope = slope_of(effect.tangential, effect.value);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  effect.slope_interval = {nan, nan};
+  if (!has_repeats(series.conditions)) {
+    for (Interval& interval : effect.interval) interval = {nan, nan};
+    return effect;
+  }
   std::vector<double> slopes;
   for (const auto& values : drawn) slopes.push_back(slope_of(effect.tangential, values));
   effect.slope_interval = central_95(slopes);
@@ -91,7 +104,9 @@ void add_tangential(Findings& findings, const Study& study, const Series& series
                     const std::vector<double>& normal_speeds, const std::string& suffix, Json& json) {
   PageSection section{.title = titled("Effect of the tangential velocity", series)};
   section.paragraphs.push_back(
-      "At one normal velocity, under all angles: between the speeds that were run, linearly. The slope is that of a "
+      "At one normal velocity, under all angles: between the speeds that were run by straight lines of the logarithms. "
+      "The "
+      "slope is that of a "
       "straight line, its interval 95 % by bootstrap.");
   for (const std::string response : responses) {
     PlotInput plot{.title = titled(words(response) + " at fixed normal velocity", series),
@@ -105,14 +120,15 @@ void add_tangential(Findings& findings, const Study& study, const Series& series
                         .y = effect.value,
                         .style = PlotSeries::Style::Points};
       for (const Interval& interval : effect.interval)
-        points.low.push_back(interval.low), points.high.push_back(interval.high);
+        if (std::isfinite(interval.low)) points.low.push_back(interval.low), points.high.push_back(interval.high);
       plot.series.push_back(points);
       const double range = *std::max_element(effect.value.begin(), effect.value.end()) -
                            *std::min_element(effect.value.begin(), effect.value.end());
-      const std::string answer = range < negligible                 ? "no effect, below 0.1 % of the mass"
-                                 : effect.slope_interval.low > 0.0  ? "rises with the tangential velocity"
-                                 : effect.slope_interval.high < 0.0 ? "falls with the tangential velocity"
-                                                                    : "no effect beyond the scatter";
+      const std::string answer = range < negligible                      ? "no effect, below 0.1 % of the mass"
+                                 : std::isnan(effect.slope_interval.low) ? "not told without repeats"
+                                 : effect.slope_interval.low > 0.0       ? "rises with the tangential velocity"
+                                 : effect.slope_interval.high < 0.0      ? "falls with the tangential velocity"
+                                                                         : "no effect beyond the scatter";
       Json one{{"measure", response},
                {"normal_speed", normal},
                {"slope_s_per_m", json_of(effect.slope)},
@@ -165,7 +181,8 @@ void add_frictionless(Findings& findings, const Study& study, const Series& seri
         ++pairs;
         if (difference < same) ++equal;
         largest = std::max(largest, difference);
-        largest_energy = std::max(largest_energy, std::abs(energy_of_breaking(*runs[k]) / energy - 1.0));
+        const double change = std::abs(energy_of_breaking(*runs[k]) / energy - 1.0);
+        largest_energy = std::isnan(change) ? change : std::max(largest_energy, change);
       }
     if (pairs == 0) continue;
     const double speed = static_cast<double>(normal) / resolution;

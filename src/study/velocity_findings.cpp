@@ -1,7 +1,5 @@
 #include "study/velocity_findings.hpp"
 
-#include <set>
-
 #include "study/breakage_curves.hpp"
 #include "study/collapse_findings.hpp"
 #include "study/condition_plots.hpp"
@@ -12,13 +10,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-bool varies_speed(const Series& series) {
-  std::set<double> speeds;
-  for (const Condition& condition : series.conditions)
-    if (condition.speed > 0.0) speeds.insert(condition.speed);
-  return speeds.size() > 1;
-}
-
 }  // namespace
 
 void add_velocity_findings(Findings& findings, const Study& study, const std::vector<double>& normal_speeds,
@@ -26,7 +17,7 @@ void add_velocity_findings(Findings& findings, const Study& study, const std::ve
   const std::vector<Series> all = series_of(study);
   for (std::size_t k = 0; k < all.size(); ++k) {
     const Series& series = all[k];
-    if (!varies_speed(series)) continue;
+    if (series.conditions.size() < 2 || series.conditions.front().speed <= 0.0) continue;
     const std::string suffix = suffix_of(k, all.size());
     Json json{{"series", series.name}};
     add_breakage_curves(findings, study, series, suffix, json);

@@ -48,18 +48,33 @@ std::vector<PageRun> chosen_runs(const Study& study) {
                                      : k * (runs.size() - 1) /
                                            (std::min(most, runs.size()) > 1 ? std::min(most, runs.size()) - 1 : 1)]);
     for (const StudyRun* run : picked)
-      chosen.push_back({.name = run->name,
-                        .caption = fmt::format("{:g} m/s, {:.3g}°: {}, {:.3g} % lost", run->speed, run->angle / degree,
-                                               run->breakage_class, 100.0 * run->chipping_ratio()),
-                        .picture = run->folder / "picture.png",
-                        .frame = last_frame(run->folder),
-                        .has_wall = run->speed > 0.0});
+      chosen.push_back(
+          {.name = run->name,
+           .caption = (run->has_wall ? fmt::format("{:g} m/s, {:.3g}°: ", run->speed, run->angle / degree) : "") +
+                      fmt::format("{}, {:.3g} % lost", run->breakage_class, 100.0 * run->chipping_ratio()),
+           .picture = run->folder / "picture.png",
+           .frame = last_frame(run->folder),
+           .has_wall = run->has_wall});
   }
   return chosen;
 }
 
 std::string counts(const Study& study) {
-  return fmt::format("{} runs done, {} failed, {} not done", study.runs.size(), study.failed, study.waiting);
+  std::string text =
+      fmt::format("{} runs done, {} failed, {} not done", study.runs.size(), study.failed, study.waiting);
+  if (!study.unreadable.empty()) text += fmt::format(", {} left out: cannot be read", study.unreadable.size());
+  return text;
+}
+
+// What an earlier analysis has left and this one may not write.
+void remove_earlier(const fs::path& out, const fs::path& page) {
+  fs::remove(page);
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(out)) {
+    const fs::path ending = entry.path().extension();
+    if (ending == ".png" || ending == ".svg" || ending == ".csv" || ending == ".json") files.push_back(entry.path());
+  }
+  for (const fs::path& file : files) fs::remove(file);
 }
 
 }  // namespace
@@ -72,6 +87,7 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
   tell("reading the runs");
   const Study study = read_study(folders, options.sieve);
   fs::create_directories(out);
+  remove_earlier(out, page);
   Findings findings{.folder = out};
   findings.json = {
       {"title", options.title},
@@ -92,7 +108,8 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
   tell("energies");
   add_energy_findings(findings, study);
   findings.json["verdicts"] = findings.verdicts;
-  write_text_atomically(out / "analysis.json", findings.json.dump(2) + "\n");
+  write_text_atomically(out / "analysis.json",
+                        findings.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   tell("report.html");
   write_campaign_page(page, {.title = options.title,
                              .subtitle = counts(study),
@@ -100,7 +117,7 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
                              .sections = findings.sections,
                              .runs_table = {.columns = study.table.columns, .rows = study.table.rows},
                              .runs = chosen_runs(study)});
-  return {study.runs.size(), study.failed, study.waiting, findings.verdicts};
+  return {study.runs.size(), study.failed, study.waiting, study.unreadable, findings.verdicts};
 }
 
 }  // namespace knap

@@ -18,6 +18,7 @@ struct StudyOptions {
 
 struct StudyOutcome {
   std::size_t runs = 0, failed = 0, waiting = 0;
+  std::vector<std::string> unreadable{};  ///< runs left out, and why
   std::vector<std::string> verdicts{};
 };
 

@@ -38,6 +38,21 @@ TEST(BreakageFunctions, VogelPeukertIsFound) {
   const Fit fit = fit_vogel_peukert(drawn([](double w) { return vogel_peukert(w, 0.008, 100.0); }, 450.0));
   EXPECT_NEAR(fit.value("f_x"), 0.008, 0.0008);
   EXPECT_NEAR(fit.value("W_min"), 100.0, 8.0);
+  EXPECT_NEAR(fit.value("f_x"), 0.008, 3.0 * fit.error("f_x"));
+}
+
+TEST(BreakageFunctions, AKinkHasNoStandardError) {
+  // None of six breaks at 128 J/kg, four at the next two energies: the best W_min is 128, where the likelihood has a
+  // kink.
+  std::vector<EnergyImpact> impacts;
+  const auto add = [&](double energy, int broken) {
+    for (int i = 0; i < 6; ++i) impacts.push_back({energy, i < broken, std::nan("")});
+  };
+  add(98.0, 0), add(128.0, 0), add(162.0, 4), add(200.0, 4), add(242.0, 6);
+  const Fit fit = fit_vogel_peukert(impacts);
+  EXPECT_NEAR(fit.value("W_min"), 128.0, 0.01);
+  EXPECT_TRUE(fit.is_kinked[1]);
+  EXPECT_TRUE(std::isnan(fit.error("W_min")));
 }
 
 TEST(BreakageFunctions, ShiKojovicIsFound) {

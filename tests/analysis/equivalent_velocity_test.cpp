@@ -84,6 +84,28 @@ TEST(EquivalentVelocity, StopsAtAMuOfOne) {
   EXPECT_NEAR(result.model.value, 1.0, 1e-3);
 }
 
+TEST(EquivalentVelocity, LosesWhereThePartsAlongTheWallProtect) {
+  auto impacts = made(0.0, 0.005);
+  for (ObliqueImpact& impact : impacts)  // no a mu of 0 to 1 makes v_eq smaller than v sin th
+    impact.breakage = std::max(0.0, impact.breakage - 0.1 * std::cos(impact.angle) * (impact.speed > 20.0 ? 1.0 : 0.0));
+  const CollapseComparison result = compare_collapse(impacts, FrictionRule::FreeProduct, BreakageScale::Plain, 50);
+  EXPECT_NE(verdict(result), CollapseVerdict::Beats);
+  EXPECT_LT(result.model.value, 0.05);
+  EXPECT_LE(result.scatter, result.null.left_out_rms);
+}
+
+TEST(EquivalentVelocity, HasNoVerdictWithoutRepeats) {
+  std::vector<ObliqueImpact> impacts;
+  for (const ObliqueImpact& impact : made(0.8, 0.01))
+    if (impacts.empty() || impacts.back().speed != impact.speed || impacts.back().angle != impact.angle)
+      impacts.push_back(impact);
+  const CollapseComparison result = compare_collapse(impacts, FrictionRule::FreeProduct);
+  EXPECT_FALSE(result.has_repeats);
+  EXPECT_TRUE(std::isnan(result.gain.low));
+  EXPECT_EQ(verdict(result), CollapseVerdict::Undecided);
+  EXPECT_NEAR(result.model.value, 0.8, 0.1);
+}
+
 TEST(EquivalentVelocity, RefusesWhatCannotBeCompared) {
   auto impacts = made(0.5, 0.0);
   std::erase_if(impacts, [](const ObliqueImpact& impact) { return impact.angle < 70.0 * degree; });

@@ -26,7 +26,7 @@ TEST(PopulationBalance, AStepConservesMass) {
       breakage_matrix(classes, [](double z) { return breakage_distribution(z, 0.8, 0.4); });
   for (Eigen::Index j = 0; j < breakage.cols(); ++j) {
     EXPECT_NEAR(breakage.col(j).sum(), 1.0, 1e-14);
-    for (Eigen::Index i = 0; i < breakage.rows(); ++i) EXPECT_GE(breakage(i, j), i < j ? 0.0 : 0.0);
+    EXPECT_GE(breakage.col(j).minCoeff(), 0.0);
     for (Eigen::Index i = 0; i < j; ++i) EXPECT_EQ(breakage(i, j), 0.0);  // nothing grows
   }
   Eigen::VectorXd masses(5), selection(5);
@@ -47,6 +47,13 @@ TEST(PopulationBalance, MeasuredPointsAreJoinedByPowers) {
   EXPECT_NEAR(measured_distribution(0.05, at, finer), 0.05, 1e-12);
   EXPECT_EQ(measured_distribution(1.0, at, finer), 1.0);
   EXPECT_EQ(measured_distribution(0.0, at, finer), 0.0);
+  // Two halves and nothing finer.
+  const std::vector<double> halves{0.0, 0.0, 0.5, 1.0};
+  const SizeClasses classes{{1.0, 0.8, 0.2, 0.1}};
+  const Eigen::MatrixXd breakage =
+      breakage_matrix(classes, [&](double z) { return measured_distribution(z, at, halves); });
+  EXPECT_TRUE(breakage.allFinite());
+  EXPECT_GE(breakage.minCoeff(), 0.0);
 }
 
 TEST(PopulationBalance, TwoTermsAreFound) {

@@ -43,7 +43,7 @@ function setUpViewer(frames, shownRun) {
   }
   const prefix = commonPrefix(frames.map(frame => frame.name));
   const short = name => (prefix && "… ") + name.slice(prefix.length);
-  choice.append(...frames.map((frame, i) => element("option", {value: i}, frame.caption || short(frame.name))));
+  choice.append(...frames.map((frame, i) => element("option", {value: i, title: frame.name}, frame.caption || short(frame.name))));
   let last = 0;
   async function show(index) {
     const turn = ++last, frame = frames[index];
