@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 
 #include "analysis/equivalent_velocity.hpp"
@@ -69,6 +70,10 @@ void draw_collapse(Findings& findings, PageSection& section, const Study& study,
   add_figure(findings, section, stem + "_residuals", residuals, "");
 }
 
+std::string answer_of(const CollapseComparison& found) {
+  return found.has_repeats ? sentence(verdict(found)) : "no verdict without repeats: run several seeds";
+}
+
 // One fit, as rows, numbers and a sentence.
 void tell(Findings& findings, PageSection& section, const Series& series, const std::string& name,
           const CollapseComparison& found, Json& json) {
@@ -82,8 +87,7 @@ void tell(Findings& findings, PageSection& section, const Series& series, const 
   model["a_with_known_friction"] = found.model.value / friction;
   model["a_interval"] = json_of(a);
   model["wall_friction"] = friction;
-  const std::string answer =
-      found.has_repeats ? sentence(verdict(found)) : "no verdict without repeats: run several seeds";
+  const std::string answer = answer_of(found);
   json = {{"model", model},
           {"null", collapse_json(found.null, list)},
           {"gain_of_left_out_rms", json_of(found.gain)},
@@ -143,30 +147,35 @@ void add_collapse(Findings& findings, const Study& study, const Series& series, 
 }
 
 void add_known_friction(Findings& findings, const Study& study, int samples) {
-  std::set<double> frictions;
+  std::map<std::string, std::set<double>> frictions;
   for (const StudyRun& run : study.runs)
-    if (run.series.empty()) frictions.insert(run.friction);
-  if (frictions.size() < 2) return;
-  Json& json = findings.json["one_a_for_all_frictions"];
-  PageSection section{.title = "Equivalent velocity, one a for all frictions"};
-  for (const std::string response : responses) {
-    std::vector<ObliqueImpact> impacts;
-    for (const Series& series : series_of(study))
-      for (const ObliqueImpact& impact : impacts_of(study, series, response)) impacts.push_back(impact);
-    try {
-      const CollapseComparison known =
-          compare_collapse(impacts, FrictionRule::KnownFriction, BreakageScale::Plain, samples);
-      json[response] = collapse_json(known.model, angles(impacts));
-      json[response]["a"] = known.model.value;
-      json[response]["a_interval"] = json_of(known.model.interval);
-      json[response]["verdict"] = sentence(verdict(known));
-      section.rows.push_back({words(response) + ": a", fmt::format("{:.3g}", known.model.value),
-                              shown(known.model.interval), sentence(verdict(known))});
-    } catch (const std::invalid_argument& reason) {
-      section.paragraphs.push_back(words(response) + ": not fitted, " + reason.what() + ".");
+    if (run.has_wall) frictions[run.series].insert(run.friction);
+  for (const auto& [name, different] : frictions) {
+    if (different.size() < 2) continue;
+    Json json{{"series", name}};
+    PageSection section{.title = titled("Equivalent velocity, one a for all frictions", Series{.name = name})};
+    for (const std::string response : responses) {
+      std::vector<ObliqueImpact> impacts;
+      for (const Series& series : series_of(study))
+        if (series.conditions.front().series == name)
+          for (const ObliqueImpact& impact : impacts_of(study, series, response)) impacts.push_back(impact);
+      try {
+        const CollapseComparison known =
+            compare_collapse(impacts, FrictionRule::KnownFriction, BreakageScale::Plain, samples);
+        const std::string answer = answer_of(known);
+        json[response] = collapse_json(known.model, angles(impacts));
+        json[response]["a"] = known.model.value;
+        json[response]["a_interval"] = json_of(known.model.interval);
+        json[response]["verdict"] = answer;
+        section.rows.push_back(
+            {words(response) + ": a", shown(known.model.value), shown(known.model.interval), answer});
+      } catch (const std::invalid_argument& reason) {
+        section.paragraphs.push_back(words(response) + ": not fitted, " + reason.what() + ".");
+      }
     }
+    findings.json["one_a_for_all_frictions"].push_back(json);
+    findings.sections.push_back(std::move(section));
   }
-  findings.sections.push_back(std::move(section));
 }
 
 }  // namespace knap

@@ -15,7 +15,7 @@ void add_figure(Findings& findings, PageSection& section, const std::string& ste
                 const std::string& caption) {
   bool has_points = false;
   for (const PlotSeries& series : plot.series) has_points = has_points || !series.x.empty();
-  if (!has_points) return;
+  if (!has_points || !findings.has_plots) return;
   draw_plot_twice(findings.folder / stem, plot);
   section.figures.push_back({plot.title, findings.folder / (stem + ".svg"), caption});
 }

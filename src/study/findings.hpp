@@ -17,6 +17,7 @@ namespace knap {
 
 struct Findings {
   std::filesystem::path folder;  ///< of tables and plots
+  bool has_plots = true;         ///< off where there are too many series to look at
   nlohmann::ordered_json json{};
   std::vector<PageSection> sections{};
   std::vector<std::string> verdicts{};  ///< plain sentences

@@ -95,6 +95,11 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
       {"sieve_m", options.sieve > 0.0 ? Json(options.sieve) : Json("the diameter over 2^(1/4)")},
       {"units",
        "SI; angles in degrees from the plane of the wall where a name says deg; intervals are 95 %, bootstrap"}};
+  constexpr std::size_t most_drawn = 20;
+  if (const std::size_t series = series_of(study).size(); series > most_drawn) {
+    findings.has_plots = false;
+    findings.verdicts.push_back(fmt::format("{} series are too many to draw: numbers only.", series));
+  }
   tell("the summary");
   add_summary(findings, study);
   tell("breakage over speed and angle, the equivalent velocity");

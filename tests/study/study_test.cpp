@@ -226,7 +226,7 @@ TEST_F(StudyTest, OneAForWallsOfSeveralFrictions) {
   add_oblique(0.3, 0.2, 5.5);  // a = 1.5
   add_oblique(0.75, 0.5, 5.5);
   const auto json = studied();
-  EXPECT_NEAR(json["one_a_for_all_frictions"]["chipping_ratio"]["a"].get<double>(), 1.5, 0.1);
+  EXPECT_NEAR(json["one_a_for_all_frictions"][0]["chipping_ratio"]["a"].get<double>(), 1.5, 0.1);
   EXPECT_EQ(json["velocity"].size(), 2U);
 }
 
