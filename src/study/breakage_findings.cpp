@@ -8,11 +8,7 @@
 #include <optional>
 
 #include "analysis/breakage_functions.hpp"
-#include "analysis/population_balance.hpp"
-#include "analysis/size_fits.hpp"
-#include "core/errors.hpp"
-#include "io/file_output.hpp"
-#include "study/size_findings.hpp"
+#include "study/balance_findings.hpp"
 
 namespace knap {
 namespace {
@@ -201,137 +197,14 @@ void add_derived(const Fits& fits, double diameter, PageSection& section, Json& 
   }
 }
 
-/// What broken particles became, over z = size over the particle's, between the floor and 1.
-struct Measured {
-  std::vector<double> z{}, finer{};
-  double floor = 0.0;
-};
-
-Measured measured_over_size(const Study& study, const Impacts& impacts) {
-  std::vector<std::size_t> broken;
+BalanceInput balance_input(const Study& study, const Impacts& impacts, const Fit& vogel, const std::string& suffix) {
+  BalanceInput input{.diameter = study.runs[impacts.runs.front()].diameter,
+                     .largest_energy = impacts.largest_energy,
+                     .selection = vogel,
+                     .suffix = suffix};
   for (std::size_t k = 0; k < impacts.runs.size(); ++k)
-    if (impacts.outcomes[k]) broken.push_back(impacts.runs[k]);
-  Measured measured;
-  if (broken.empty()) return measured;
-  measured.floor = resolution_floor(study, broken);
-  if (measured.floor >= 1.0) return measured;
-  measured.z = sieve_series(1.0, measured.floor);
-  measured.finer = mean_passing(study, broken, measured.z);
-  measured.finer.front() = 1.0;  // B(y|y) = 1: what is broken of a class is at most as large as the class
-  return measured;
-}
-
-void export_balance(Findings& findings, PageSection& section, const Series& series, const Study& study,
-                    const Impacts& impacts, const Fits& fits, const std::string& suffix, Json& json) {
-  const Measured measured = measured_over_size(study, impacts);
-  if (measured.z.size() < 4 || !fits.vogel) {
-    section.paragraphs.push_back("No population balance is exported: the mesh resolves too few sieves of the pieces.");
-    return;
-  }
-  const Fit fit = fit_breakage_distribution(measured.z, measured.finer),
-            austin = fit_austin(measured.z, measured.finer);
-  add_values(section, "B(x|y), tanh", fit);
-  add_values(section, "B(x|y), two terms", austin);
-  const auto rms = [&](const Fit& of) { return std::sqrt(of.loss / static_cast<double>(of.num_data)); };
-  section.rows.push_back({"B(x|y): rms of the fits, tanh and two terms",
-                          fmt::format("{:.2g}, {:.2g}", rms(fit), rms(austin)), "",
-                          "the matrix is of the measured distribution itself"});
-  json["breakage_distribution"] = json_of(fit), json["breakage_distribution"]["rms"] = rms(fit);
-  json["breakage_distribution_two_terms"] = json_of(austin),
-  json["breakage_distribution_two_terms"]["rms"] = rms(austin);
-  const auto tanh_law = [&](double z) { return breakage_distribution(z, fit.value("q"), fit.value("r")); };
-  const auto two_terms = [&](double z) {
-    return austin_distribution(z, austin.value("phi"), austin.value("g"), austin.value("b"));
-  };
-  const std::vector<double> at(measured.z.rbegin(), measured.z.rend()),
-      finer(measured.finer.rbegin(), measured.finer.rend());
-  const double diameter = study.runs[impacts.runs.front()].diameter;
-  SizeClasses classes;
-  for (const double z : measured.z) classes.edges.push_back(z * diameter);
-  const Eigen::MatrixXd breakage =
-      breakage_matrix(classes, [&](double z) { return measured_distribution(z, at, finer); });
-  // Selection of each class for a row of energies: f_mat and x W_min are the material's.
-  constexpr int num_energies = 25;
-  std::vector<std::vector<double>> selection_rows, breakage_rows;
-  double worst = 0.0;
-  Json selection_json = Json::array();
-  for (int k = 0; k <= num_energies; ++k) {
-    const double energy = impacts.largest_energy * k / num_energies;
-    std::vector<double> row{energy};
-    for (const double x : classes.edges)
-      row.push_back(
-          vogel_peukert(energy, fits.vogel->value("f_x") * x / diameter, fits.vogel->value("W_min") * diameter / x));
-    Eigen::VectorXd selection =
-        Eigen::Map<const Eigen::VectorXd>(row.data() + 1, static_cast<Eigen::Index>(classes.size()));
-    selection[selection.size() - 1] = 0.0;  // the pan stays
-    row.back() = 0.0;
-    const Eigen::VectorXd masses =
-        Eigen::VectorXd::Constant(selection.size(), 1.0 / static_cast<double>(selection.size()));
-    worst = std::max(worst, std::abs(ground(masses, selection, breakage).sum() - 1.0));
-    selection_json.push_back(std::vector<double>(row.begin() + 1, row.end()));
-    selection_rows.push_back(std::move(row));
-  }
-  constexpr double allowed = 1e-12;
-  if (!breakage.allFinite() || breakage.minCoeff() < -allowed)
-    throw RuntimeFailure("population balance: a class of the breakage matrix is negative or no number");
-  if (worst > allowed)
-    throw RuntimeFailure(fmt::format("population balance: a step of grinding changes the mass by {:.1e}", worst));
-  std::vector<std::string> selection_columns{"energy [J/kg]"}, breakage_columns{"upper edge [m]"};
-  for (const double x : classes.edges) {
-    selection_columns.push_back(fmt::format("S at x = {:.6g} m [-]", x));
-    breakage_columns.push_back(fmt::format("b from y = {:.6g} m [-]", x));
-  }
-  Json matrix = Json::array(), energies = Json::array();
-  for (const auto& row : selection_rows) energies.push_back(row[0]);
-  for (Eigen::Index i = 0; i < breakage.rows(); ++i) {
-    breakage_rows.push_back({classes.edges[static_cast<std::size_t>(i)]});
-    matrix.push_back(Json::array());
-    for (Eigen::Index j = 0; j < breakage.cols(); ++j)
-      breakage_rows.back().push_back(breakage(i, j)), matrix.back().push_back(breakage(i, j));
-  }
-  write_table(findings.folder / ("selection" + suffix + ".csv"), selection_columns, selection_rows);
-  write_table(findings.folder / ("breakage" + suffix + ".csv"), breakage_columns, breakage_rows);
-  const Json laws{{{"law", "B = (x/y)^q (1 + tanh((x - x')/x')) over its value at x = y, x' = r y"},
-                   {"q", fit.value("q")},
-                   {"r", fit.value("r")},
-                   {"rms", rms(fit)}},
-                  {{"law", "B = phi (x/y)^g + (1 - phi) (x/y)^b (Austin, Klimpel & Luckie 1984)"},
-                   {"phi", austin.value("phi")},
-                   {"g", austin.value("g")},
-                   {"b", austin.value("b")},
-                   {"rms", rms(austin)}}};
-  const Json balance{
-      {"units",
-       {{"size", "m"},
-        {"energy", "J/kg"},
-        {"selection", "-, broken mass over the class's, one impact"},
-        {"breakage", "-, row i of column j: mass that goes to class i of what is broken of class j"}}},
-      {"sizes", classes.edges},
-      {"last_class", "all that passes the last edge, the resolution floor of the meshes"},
-      {"energies", energies},
-      {"selection", selection_json},
-      {"breakage", matrix},
-      {"selection_law",
-       {{"law", "S = 1 - exp(-f_mat x (W - W_min)), x W_min constant (Vogel & Peukert 2003)"},
-        {"f_mat_kg_per_J_m", fits.vogel->value("f_x") / diameter},
-        {"x_W_min_J_m_per_kg", fits.vogel->value("W_min") * diameter}}},
-      {"breakage_is", "the mean of the broken particles, between sieves by straight lines of the logarithms"},
-      {"breakage_laws", laws},
-      {"selection_is_resolved", fits.vogel->covariance.size() > 0},
-      {"assumption", "particles of all sizes break alike: only one size was run"},
-      {"mass_error_of_one_step", worst}};
-  write_text_atomically(findings.folder / ("population_balance" + suffix + ".json"), balance.dump(1) + "\n");
-  json["population_balance"] = {{"file", "population_balance" + suffix + ".json"}, {"mass_error_of_one_step", worst}};
-  section.rows.push_back({"population balance: mass error of one step of grinding", fmt::format("{:.1g}", worst), "",
-                          fmt::format("population_balance{0}.json, selection{0}.csv, breakage{0}.csv", suffix)});
-  const PlotSeries points{
-      .name = "broken particles", .x = measured.z, .y = measured.finer, .style = PlotSeries::Style::Points};
-  add_fit_figures(findings, section, "breakage_distribution" + suffix,
-                  {.title = titled("breakage distribution", series),
-                   .x_label = "size over the particle's [-]",
-                   .y_label = "B(x|y) [-]",
-                   .marks = {{measured.floor, "resolution floor"}}},
-                  points, {{"tanh", tanh_law}, {"two terms", two_terms}}, "");
+    if (impacts.outcomes[k]) input.broken.push_back(impacts.runs[k]);
+  return input;
 }
 
 }  // namespace
@@ -345,11 +218,12 @@ void add_breakage_findings(Findings& findings, const Study& study, double broken
     if (impacts.largest_energy <= 0.0) continue;
     Json json{{"series", series.name}, {"angle_deg", impacts.angle / degree}, {"broken_from_mass_loss", broken}};
     PageSection section{.title = titled("Breakage functions", series)};
-    section.paragraphs.push_back(fmt::format(
-        "Of the impacts at {:.3g}°. A particle is broken that has lost {:g} % of its mass (Tavares & King 1998). W = "
-        "v²/2 is the "
-        "energy of the impact over the particle's mass. Values ± standard errors; covariances are in analysis.json.",
-        impacts.angle / degree, 100.0 * broken));
+    section.paragraphs.push_back(
+        fmt::format("Of the impacts at {:.3g}°. A particle is broken that has lost {:g} % of its mass (Tavares & King "
+                    "1998). W = v²/2 is "
+                    "the energy of the impact over the particle's mass. Values ± standard errors; covariances are in "
+                    "analysis.json.",
+                    impacts.angle / degree, 100.0 * broken));
     const auto num_broken = std::count(impacts.outcomes.begin(), impacts.outcomes.end(), true);
     if (num_broken == 0 || num_broken == static_cast<std::ptrdiff_t>(impacts.outcomes.size())) {
       const std::string reason = num_broken == 0 ? "no particle is broken" : "every particle is broken";
@@ -360,7 +234,9 @@ void add_breakage_findings(Findings& findings, const Study& study, double broken
       add_derived(fits, study.runs[impacts.runs.front()].diameter, section, json);
       draw_probability(findings, section, series, impacts, fits, suffix);
       draw_t10(findings, section, series, impacts, fits, suffix);
-      export_balance(findings, section, series, study, impacts, fits, suffix, json);
+      if (fits.vogel)
+        add_population_balance(findings, section, study, series, balance_input(study, impacts, *fits.vogel, suffix),
+                               json);
     }
     findings.json["breakage_functions"].push_back(json);
     findings.sections.push_back(std::move(section));
