@@ -10,6 +10,9 @@
 namespace knap {
 namespace {
 
+// Below it v_eq is within 0.2 % of v sin th: the null rule.
+constexpr double least_product = 0.05;
+
 using Impacts = std::vector<ObliqueImpact>;
 
 /// One way to fit: null, or with the term of friction.
@@ -91,9 +94,18 @@ std::vector<double> breakage_of(const Means& means) {
   return breakage;
 }
 
+// Locally from a guess, and from another strength of the friction term: the loss may have two minima there.
 std::vector<double> refitted(const Model& model, const Impacts& impacts, const std::vector<double>& guess) {
   const Means means = means_of(model, impacts);
-  return refit(parameters_of(model, impacts), law_of(model, means), breakage_of(means), guess);
+  const std::vector<double> breakage = breakage_of(means);
+  const Law law = law_of(model, means);
+  const std::vector<FitParameter> parameters = parameters_of(model, impacts);
+  std::vector<double> best = refit(parameters, law, breakage, guess);
+  if (!model.has_friction_term) return best;
+  std::vector<double> other = guess;
+  other[3] = guess[3] < 0.25 * parameters[3].high ? 0.5 * parameters[3].high : 0.0;
+  other = refit(parameters, law, breakage, other);
+  return rms_residual(law, other, breakage) < rms_residual(law, best, breakage) ? other : best;
 }
 
 double rms_of(const Model& model, const Impacts& impacts, std::span<const double> values) {
@@ -164,7 +176,8 @@ double BreakageCurve::operator()(double velocity) const {
 }
 
 CollapseVerdict verdict(const CollapseComparison& comparison) {
-  const double least = 1e-3 * comparison.null.left_out_rms;  // beyond what the fits find by chance
+  if (comparison.model.value < least_product) return CollapseVerdict::Undecided;
+  const double least = 1e-2 * comparison.null.left_out_rms;  // what matters, and beyond what fits find by chance
   if (comparison.gain.low > least) return CollapseVerdict::Beats;
   return comparison.gain.high < -least ? CollapseVerdict::Loses : CollapseVerdict::Undecided;
 }

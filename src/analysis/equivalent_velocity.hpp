@@ -55,7 +55,8 @@ struct CollapseComparison {
 };
 
 enum class CollapseVerdict { Beats, Loses, Undecided };
-/// By whether the interval of the gain lies above, below or around zero; undecided without repeats.
+/// By whether the interval of the gain lies above, below or around zero, by more than a hundredth of the null's
+/// error; undecided without repeats, and where a mu is so small that both rules are one.
 CollapseVerdict verdict(const CollapseComparison& comparison);
 
 /// The different angles, ascending [rad].

@@ -168,8 +168,8 @@ std::vector<double> refit(const std::vector<FitParameter>& parameters, const Law
   const Loss loss = squares_of(law, data);
   Search search{parameters, loss};
   for (std::size_t i = 0; i < guess.size(); ++i) guess[i] = to_unit(parameters[i], guess[i]);
-  constexpr Tolerance coarse{.step = 1e-4, .loss = 1e-7};  // far below what drawing anew does
-  return from_unit(parameters, searched(nlopt::LN_SBPLX, search, guess, 600, coarse));
+  constexpr Tolerance coarse{.step = 1e-5, .loss = 1e-9};  // far below what drawing anew does
+  return from_unit(parameters, searched(nlopt::LN_SBPLX, search, guess, 1000, coarse));
 }
 
 Fit probability_fit(const std::vector<FitParameter>& parameters, const Law& probability,

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <map>
 #include <thread>
 
 #include "app/commands.hpp"
@@ -65,12 +66,32 @@ Cost expected_cost(const RunConfig& config) {
   return {tets, start_seconds + card.wall_time, memory_of_program + memory_of_tet * tets, config.run.threads};
 }
 
-// Every case of a campaign is checked before the first one runs, so that nothing fails in the middle of the night.
+// What a run computes, as text: the case without what changes no number of it.
+std::string computed_case(RunConfig config) {
+  if (config.impact.repeat == 1) config.run.seed = 0;  // its other uses are resolved by now
+  config.run.threads = 0;
+  config.output = {};
+  for (ParticleConfig& particle : config.particles)
+    if (particle.fracture.weibull_modulus == 0.0) particle.fracture.weibull_seed = not_given;
+  return effective_toml(config);
+}
+
+// Every case of a campaign is checked before the first one runs, so that nothing fails in the middle of the night; and
+// that no two are the same, which would be taken for a repeat without scatter.
 std::vector<Cost> checked_costs(const CampaignConfig& campaign, const std::vector<CampaignRun>& runs) {
   std::vector<Cost> costs;
+  std::map<std::string, std::string> run_of_case;
   for (const CampaignRun& run : runs) {
     try {
-      costs.push_back(expected_cost(load_config(campaign.base, overrides_of(campaign, run))));
+      const RunConfig config = load_config(campaign.base, overrides_of(campaign, run));
+      const auto [first, is_new] = run_of_case.emplace(computed_case(config), run.name);
+      if (!is_new)
+        throw InputError(
+            fmt::format("would be the same run as {}: run.seed changes nothing where mesh.seed is given and strengths "
+                        "do not scatter; "
+                        "vary mesh.seed, or leave it out of the case",
+                        first->second));
+      costs.push_back(expected_cost(config));
     } catch (const InputError& error) {
       throw InputError(fmt::format("run {}: {}", run.name, error.what()));
     }

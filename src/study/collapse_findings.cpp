@@ -71,7 +71,10 @@ void draw_collapse(Findings& findings, PageSection& section, const Study& study,
 }
 
 std::string answer_of(const CollapseComparison& found) {
-  return found.has_repeats ? sentence(verdict(found)) : "no verdict without repeats: run several seeds";
+  constexpr double same_rule = 0.05;
+  if (!found.has_repeats) return "no verdict without repeats: run several seeds";
+  if (found.model.value < same_rule) return "the best equivalent velocity is the normal component itself";
+  return sentence(verdict(found));
 }
 
 // One fit, as rows, numbers and a sentence.

@@ -29,6 +29,18 @@ TEST_F(CampaignRuns, RunsEverythingOnceAndMakesOneTable) {
   EXPECT_EQ(fs::last_write_time(folder / "c/runs/speed_25mps-seed_2/report.json"), written);
 }
 
+TEST_F(CampaignRuns, RefusesRepeatsThatWouldBeTheSameRun) {
+  std::string text = breaking_case;
+  text.insert(text.find("[mesh]\n") + 7, "seed = 3\n");
+  write("case.toml", text);
+  const Ended ended = run_campaign();
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(
+      ended.err,
+      HasSubstr("run speed_15mps-seed_2: would be the same run as speed_15mps-seed_1: run.seed changes nothing"));
+  EXPECT_FALSE(fs::exists(folder / "c"));
+}
+
 TEST_F(CampaignRuns, AKilledOneGoesOnAndComesToTheSameResults) {
   ASSERT_EQ(run({"campaign", "study.campaign.toml", "--out", "whole"}).code, 0);
   const Started started = start({"campaign", "study.campaign.toml", "--out", "c", "--jobs", "1"});
