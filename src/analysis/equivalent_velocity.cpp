@@ -10,9 +10,6 @@
 namespace knap {
 namespace {
 
-// Below it v_eq is within 0.2 % of v sin th: the null rule.
-constexpr double least_product = 0.05;
-
 using Impacts = std::vector<ObliqueImpact>;
 
 /// One way to fit: null, or with the term of friction.
@@ -134,7 +131,10 @@ Collapse collapse_of(const Model& model, const Impacts& impacts, std::vector<dou
   const Fit fit = least_squares_fit(parameters_of(model, impacts), law_of(model, means), breakage_of(means));
   values = fit.values;
   Collapse collapse{.curve = curve_of(values), .rms = rms_of(model, impacts, values)};
-  if (model.has_friction_term) collapse.value = values[3], collapse.is_at_end = fit.is_at_end[3];
+  if (model.has_friction_term) {
+    collapse.value = values[3], collapse.is_at_end = fit.is_at_end[3];
+    collapse.product = values[3] / fit.parameters[3].high;  // whose end is where that product is 1
+  }
   collapse.left_out_by_angle = left_out(model, impacts, values);
   collapse.left_out_rms = mean(collapse.left_out_by_angle);
   return collapse;
@@ -175,8 +175,13 @@ double BreakageCurve::operator()(double velocity) const {
   return plateau * -std::expm1(-std::pow(std::max(0.0, velocity) / scale, exponent));
 }
 
+bool is_null_rule(const CollapseComparison& comparison) {
+  constexpr double least_product = 0.05;
+  return comparison.model.product < least_product;
+}
+
 CollapseVerdict verdict(const CollapseComparison& comparison) {
-  if (comparison.model.value < least_product) return CollapseVerdict::Undecided;
+  if (is_null_rule(comparison)) return CollapseVerdict::Undecided;
   const double least = 1e-2 * comparison.null.left_out_rms;  // what matters, and beyond what fits find by chance
   if (comparison.gain.low > least) return CollapseVerdict::Beats;
   return comparison.gain.high < -least ? CollapseVerdict::Loses : CollapseVerdict::Undecided;

@@ -38,6 +38,7 @@ enum class BreakageScale { Plain, Stabilised };
 
 struct Collapse {
   double value = 0.0;      ///< a mu, or a
+  double product = 0.0;    ///< the largest a mu of any wall
   Interval interval{};     ///< 95 %, bootstrap over the runs of each speed and angle
   bool is_at_end = false;  ///< 0, or a mu = 1
   BreakageCurve curve{};
@@ -53,6 +54,9 @@ struct CollapseComparison {
   double scatter = 0.0;      ///< as left_out_rms, of runs about the mean of their own speed and angle
   bool has_repeats = false;  ///< else there are no intervals and no verdict
 };
+
+/// Whether the best a mu is so small that v_eq is v sin th, within 0.2 %.
+bool is_null_rule(const CollapseComparison& comparison);
 
 enum class CollapseVerdict { Beats, Loses, Undecided };
 /// By whether the interval of the gain lies above, below or around zero, by more than a hundredth of the null's

@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 std::string title_of(const std::vector<fs::path>& folders) {
   std::string title;
-  for (const fs::path& folder : folders) title += (title.empty() ? "" : " + ") + campaign_name(folder);
+  for (const fs::path& folder : folders) title += (title.empty() ? "" : " + ") + folder_name(folder);
   return title;
 }
 

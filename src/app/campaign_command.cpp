@@ -88,8 +88,7 @@ std::vector<Cost> checked_costs(const CampaignConfig& campaign, const std::vecto
       if (!is_new)
         throw InputError(
             fmt::format("would be the same run as {}: run.seed changes nothing where mesh.seed is given and strengths "
-                        "do not scatter; "
-                        "vary mesh.seed, or leave it out of the case",
+                        "do not scatter; vary mesh.seed, or leave it out of the case",
                         first->second));
       costs.push_back(expected_cost(config));
     } catch (const InputError& error) {
@@ -162,10 +161,10 @@ std::unique_ptr<Engine> engine_of(const CampaignArguments& arguments, const Camp
   }
   if (!arguments.slurm_options.empty()) throw InputError("--slurm-options: needs --engine slurm");
   if (const std::string jobs = open_slurm_jobs(folder.path); !jobs.empty())
-    throw InputError(fmt::format(
-        "{}: jobs of this campaign may still run under Slurm ({}): go on with --engine slurm, or, if they are "
-        "gone for certain, remove the folder {}",
-        folder.path.string(), jobs, slurm_folder(folder.path).string()));
+    throw InputError(
+        fmt::format("{}: jobs of this campaign may still run under Slurm ({}): go on with --engine slurm, or, if they "
+                    "are gone for certain, remove the folder {}",
+                    folder.path.string(), jobs, slurm_folder(folder.path).string()));
   return make_local_engine(num_jobs(arguments));
 }
 

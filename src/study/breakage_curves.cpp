@@ -19,7 +19,7 @@ void add_curves(Findings& findings, const Study& study, const Series& series, co
   PageSection section{.title = titled("Breakage over speed and angle", series)};
   section.paragraphs.push_back(fmt::format(
       "Angles are from the plane of the wall: 90° is straight on. Points are means over meshes and seeds, bars their "
-      "95 % bootstrap intervals. Breakage ratio: the mass that passes a sieve of {}; chipping ratio: the mass outside "
+      "95 % intervals. Breakage ratio: the mass that passes a sieve of {}; chipping ratio: the mass outside "
       "the largest piece.",
       study.sieve > 0.0 ? fmt::format("{:.4g} mm", 1e3 * study.sieve) : "the particle's diameter over 2^(1/4)"));
   for (const std::string response : responses) {
@@ -52,14 +52,13 @@ void add_curves(Findings& findings, const Study& study, const Series& series, co
   findings.sections.push_back(std::move(section));
 }
 
-/// The speed at which the mean of a response reaches a level, straight on or as near to it as there is; between speeds
-/// linearly. NaN if it does not.
-double speed_at_level(const Study& study, const std::vector<Condition>& list, const std::string& response, double level,
-                      const std::vector<std::vector<std::size_t>>* picks = nullptr) {
+/// The speed at which the mean over `runs`, by condition of `list`, reaches a level; between speeds linearly. NaN if it
+/// does not.
+double speed_at_level(const Study& study, const std::vector<Condition>& list,
+                      const std::vector<std::vector<std::size_t>>& runs, const std::string& response, double level) {
   double last_speed = 0.0, last = 0.0;
   for (std::size_t k = 0; k < list.size(); ++k) {
-    const std::vector<std::size_t>& runs = picks != nullptr ? (*picks)[k] : list[k].runs;
-    const double now = mean_of(study, runs, response);
+    const double now = mean_of(study, runs[k], response);
     if (now >= level)
       return k == 0 ? list[k].speed : last_speed + (level - last) / (now - last) * (list[k].speed - last_speed);
     last_speed = list[k].speed, last = now;
@@ -71,18 +70,19 @@ void add_thresholds(Findings& findings, const Study& study, const Series& series
   const double steepest = angles_of(series).back();
   const std::vector<Condition> list = at_steepest_angle(series);
   if (list.size() < 3) return;
+  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
+  std::vector<std::vector<std::size_t>> runs;
+  for (const Condition& condition : list) runs.push_back(condition.runs);
+  const auto draws = drawn_conditions(list, bootstrap_samples);
   PageSection section{.title = titled("Threshold", series)};
   for (const std::string response : responses)
     for (const double level : {0.01, 0.05, 0.1, 0.5}) {
-      const double speed = speed_at_level(study, list, response, level);
+      const double speed = speed_at_level(study, list, runs, response, level);
       std::vector<double> speeds;
-      for (const auto& draw : drawn_conditions(list, bootstrap_samples))
-        speeds.push_back(speed_at_level(study, list, response, level, &draw));
-      // A draw that does not reach the level would at a higher speed.
-      constexpr double infinity = std::numeric_limits<double>::infinity(),
-                       nan = std::numeric_limits<double>::quiet_NaN();
-      for (double& reached : speeds)
-        if (std::isnan(reached)) reached = infinity;
+      for (const auto& draw : draws) {
+        const double reached = speed_at_level(study, list, draw, response, level);
+        speeds.push_back(std::isnan(reached) ? infinity : reached);  // it would at a higher speed
+      }
       const Interval interval =
           has_repeats(list) ? Interval{quantile(speeds, 0.025), quantile(speeds, 0.975)} : Interval{nan, nan};
       json["thresholds"].push_back({{"measure", response},

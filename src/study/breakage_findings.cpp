@@ -9,6 +9,7 @@
 
 #include "analysis/breakage_functions.hpp"
 #include "study/balance_findings.hpp"
+#include "study/condition_plots.hpp"
 
 namespace knap {
 namespace {
@@ -28,10 +29,9 @@ struct Impacts {
 };
 
 Impacts impacts_of(const Study& study, const Series& series, double broken) {
-  Impacts impacts;
-  for (const Condition& condition : series.conditions) impacts.angle = std::max(impacts.angle, condition.angle);
-  for (const Condition& condition : series.conditions) {
-    if (condition.angle != impacts.angle) continue;
+  const std::vector<Condition> list = at_steepest_angle(series);
+  Impacts impacts{.angle = list.front().angle};
+  for (const Condition& condition : list) {
     for (const std::size_t i : condition.runs) {
       const StudyRun& run = study.runs[i];
       if (!std::isfinite(run.chipping_ratio())) continue;
@@ -67,9 +67,9 @@ PlotSeries measured_share(const Impacts& impacts, bool over_energy) {
   return points;
 }
 
-/// The fits that could be made.
+/// The fits that could be made and that are drawn.
 struct Fits {
-  std::optional<Fit> vogel{}, shi{}, tavares{}, tavares_t10{}, damage{}, weibull{};
+  std::optional<Fit> vogel{}, shi{}, tavares{}, tavares_t10{}, weibull{};
 };
 
 // t_10 and fits that lack data say so instead of stopping the study.
@@ -118,8 +118,7 @@ Fits fits_of(const Study& study, const Impacts& impacts, double broken, PageSect
       json["tavares_damage"] = {{"not_fitted", "no repeated impacts"}};
       section.rows.push_back({"Tavares: damage", "not fitted", "", "no run has impact.repeat above 1"});
     } else {
-      fits.damage =
-          made("Tavares: damage", section, json, "tavares_damage", [&] { return fit_damage(particles, e50, sigma); });
+      made("Tavares: damage", section, json, "tavares_damage", [&] { return fit_damage(particles, e50, sigma); });
     }
   }
   fits.weibull = made("Weibull in speed", section, json, "weibull_in_speed",
@@ -220,9 +219,8 @@ void add_breakage_findings(Findings& findings, const Study& study, double broken
     PageSection section{.title = titled("Breakage functions", series)};
     section.paragraphs.push_back(
         fmt::format("Of the impacts at {:.3g}°. A particle is broken that has lost {:g} % of its mass (Tavares & King "
-                    "1998). W = v²/2 is "
-                    "the energy of the impact over the particle's mass. Values ± standard errors; covariances are in "
-                    "analysis.json.",
+                    "1998). W = v²/2 is the energy of the impact over the particle's mass. Values ± standard errors; "
+                    "covariances are in analysis.json.",
                     impacts.angle / degree, 100.0 * broken));
     const auto num_broken = std::count(impacts.outcomes.begin(), impacts.outcomes.end(), true);
     if (num_broken == 0 || num_broken == static_cast<std::ptrdiff_t>(impacts.outcomes.size())) {

@@ -56,7 +56,7 @@ void add_class_map(Findings& findings, const Study& study, const Series& series,
 
 /// Runs that one law is fitted to.
 struct Part {
-  std::string name;   // of what the law is over, with unit in brackets left out
+  std::string name;   // of what the law is over
   std::string range;  // which runs
   std::vector<Chipping> runs{};
 };
@@ -77,9 +77,7 @@ std::vector<Part> parts_of(const Study& study, const Series& series) {
       if (!std::isfinite(ratio)) continue;
       if (condition.angle == steepest && is_chipped) chipped.runs.push_back({condition.speed, ratio});
       if (condition.angle == steepest && is_above) above.runs.push_back({condition.speed, ratio});
-      // Conditions of one normal velocity up to rounding are one speed.
-      if (is_chipped)
-        normal.runs.push_back({std::round(1e4 * condition.speed * std::sin(condition.angle)) / 1e4, ratio});
+      if (is_chipped) normal.runs.push_back({normal_speed(condition.speed, condition.angle), ratio});
     }
   }
   std::vector<Part> parts{chipped, above};
@@ -133,9 +131,8 @@ void add_laws(Findings& findings, const Study& study, const Series& series, cons
   PageSection section{.title = titled("Chipping law", series)};
   section.paragraphs.push_back(
       "Chipping ratio = C vⁿ, by the logarithms of the means at each speed: of the speeds at which most runs are "
-      "chipped "
-      "(one piece holds 75 %), and of those that lose 1 to 25 % on average. The interval is 95 %, by bootstrap over "
-      "runs.");
+      "chipped (one piece holds 75 %), and of those that lose 1 to 25 % on average. The interval is 95 %, by bootstrap "
+      "over runs.");
   int number = 0;
   for (const Part& part : parts_of(study, series)) {
     ++number;
@@ -153,7 +150,8 @@ void add_laws(Findings& findings, const Study& study, const Series& series, cons
           agreeing += fmt::format("{}{:g} ({})", agreeing.empty() ? "" : ", ", published.exponent, published.source);
       }
       section.rows.push_back(
-          {"exponent over " + part.name, fmt::format("{:.3g}", law.exponent), shown(law.interval),
+          {fmt::format("exponent over {}, {}", part.name, part.range), fmt::format("{:.3g}", law.exponent),
+           shown(law.interval),
            fmt::format("{} speeds, {:.3g} to {:.3g} m/s; within it of the published: {}", law.num_speeds, law.slowest,
                        law.fastest, agreeing.empty() ? "none" : agreeing)});
       findings.verdicts.push_back(

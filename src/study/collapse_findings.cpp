@@ -71,9 +71,8 @@ void draw_collapse(Findings& findings, PageSection& section, const Study& study,
 }
 
 std::string answer_of(const CollapseComparison& found) {
-  constexpr double same_rule = 0.05;
   if (!found.has_repeats) return "no verdict without repeats: run several seeds";
-  if (found.model.value < same_rule) return "the best equivalent velocity is the normal component itself";
+  if (is_null_rule(found)) return "the best equivalent velocity is the normal component itself";
   return sentence(verdict(found));
 }
 
@@ -122,10 +121,9 @@ void add_collapse(Findings& findings, const Study& study, const Series& series, 
   section.paragraphs.push_back(
       "v_eq = v sin θ √(1 + (a μ cos θ)²) (Wang et al. 2019), with a μ ≤ 1: beyond it v_eq does not rise with the "
       "angle. The null rule takes the normal component v sin θ alone. Both are judged by leaving out each angle in "
-      "turn: "
-      "the rms distance of its runs from the curve b(1 − exp(−(v/v₀)ⁿ)) of the other angles, mean over angles. On the "
-      "plain scale the large scatter far above the threshold decides; on the stabilised one, asin √b, all speeds count "
-      "alike.");
+      "turn: the rms distance of its runs from the curve b(1 − exp(−(v/v₀)ⁿ)) of the other angles, mean over angles. "
+      "On the plain scale the large scatter far above the threshold decides; on the stabilised one, asin √b, all "
+      "speeds count alike.");
   for (const std::string response : responses) {
     const std::vector<ObliqueImpact> impacts = impacts_of(study, series, response);
     for (const BreakageScale scale : {BreakageScale::Plain, BreakageScale::Stabilised}) {

@@ -15,6 +15,11 @@ std::string words(std::string measure) {
   return measure;
 }
 
+double normal_speed(double speed, double angle) {
+  constexpr double per_unit = 1e4;
+  return std::round(per_unit * speed * std::sin(angle)) / per_unit;
+}
+
 std::vector<double> angles_of(const Series& series) {
   std::set<double> set;
   for (const Condition& condition : series.conditions) set.insert(condition.angle);
@@ -61,8 +66,9 @@ void join_points(PlotInput& plot) {
 }
 
 double mean_of(const Study& study, const std::vector<std::size_t>& runs, const std::string& measure_name) {
+  const auto& value = measure(measure_name).value;
   double sum = 0.0;
-  for (const std::size_t i : runs) sum += measure(measure_name).value(study.runs[i]);
+  for (const std::size_t i : runs) sum += value(study.runs[i]);
   return sum / static_cast<double>(runs.size());
 }
 

@@ -12,6 +12,9 @@ inline constexpr std::array responses{"breakage_ratio", "chipping_ratio"};
 /// "breakage ratio".
 std::string words(std::string measure);
 
+/// v sin th [m/s], rounded to 0.1 mm/s: speeds alike up to round-off are one.
+double normal_speed(double speed, double angle);
+
 /// Ascending [rad].
 std::vector<double> angles_of(const Series& series);
 std::vector<Condition> at_angle(const Series& series, double angle);

@@ -8,8 +8,17 @@
 #include "io/file_output.hpp"
 
 namespace knap {
+namespace {
 
 using Json = nlohmann::ordered_json;
+
+std::string remark_of(const Fit& fit, std::size_t i) {
+  if (fit.is_at_end[i]) return "at the end of its range: the data leave it open";
+  if (fit.covariance.size() == 0) return "the data leave it open";
+  return fit.is_kinked[i] ? "at a kink of the likelihood: no standard error" : "";
+}
+
+}  // namespace
 
 void add_figure(Findings& findings, PageSection& section, const std::string& stem, const PlotInput& plot,
                 const std::string& caption) {
@@ -102,16 +111,6 @@ Json json_of(const Fit& fit) {
   }
   return {{"parameters", json}, {"covariance", covariance}, {"data", fit.num_data}};
 }
-
-namespace {
-
-std::string remark_of(const Fit& fit, std::size_t i) {
-  if (fit.is_at_end[i]) return "at the end of its range: the data leave it open";
-  if (fit.covariance.size() == 0) return "the data leave it open";
-  return fit.is_kinked[i] ? "at a kink of the likelihood: no standard error" : "";
-}
-
-}  // namespace
 
 void add_rows(PageSection& section, const std::string& law, const Fit& fit) {
   for (std::size_t i = 0; i < fit.parameters.size(); ++i) {

@@ -46,7 +46,7 @@ std::string suffix_of(std::size_t series, std::size_t num_series);
 /// "title" or "title (series)".
 std::string titled(const std::string& title, const Series& series);
 
-/// "12 [10, 15]"; null for what is not finite.
+/// "12 [10, 15]"; in JSON null for what is not finite.
 std::string shown(double value, const Interval& interval);
 std::string shown(const Interval& interval);
 std::string shown(double value);

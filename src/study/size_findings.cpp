@@ -62,14 +62,12 @@ void add_distributions(Findings& findings, const Study& study, const Series& ser
   const std::vector<Condition> list = at_steepest_angle(series);
   const std::vector<double> sieves = sieve_series(largest_sieve, smallest_sieve);
   PageSection section{.title = titled("Size distributions", series)};
-  section.paragraphs.push_back(fmt::format(
-      "Mass finer than a sieve, means over meshes and seeds at {:.3g}°. Below the resolution floor, the mean edge of "
-      "the coarsest mesh, pieces are products of the mesh. Where the mean loss is above 1 %, Rosin and Rammler's law "
-      "is "
-      "fitted between the floor and the largest piece, Gates, Gaudin and Schuhmann's to the fines, between the floor "
-      "and "
-      "a quarter of the diameter.",
-      list.front().angle / degree));
+  section.paragraphs.push_back(
+      fmt::format("Mass finer than a sieve, means over meshes and seeds at {:.3g}°. Below the resolution floor, the "
+                  "mean edge of the coarsest mesh, pieces are products of the mesh. Where the mean loss is above 1 %, "
+                  "Rosin and Rammler's law is fitted between the floor and the largest piece, Gates, Gaudin and "
+                  "Schuhmann's to the fines, between the floor and a quarter of the diameter.",
+                  list.front().angle / degree));
   PlotInput plot{.title = titled("size distributions", series),
                  .x_label = "size over the particle's diameter [-]",
                  .y_label = "mass fraction finer [-]",

@@ -223,7 +223,7 @@ double StudyRun::number(const std::string& column) const {
   return found == numbers.end() ? nan : found->second;
 }
 
-std::string campaign_name(const fs::path& folder) {
+std::string folder_name(const fs::path& folder) {
   return (fs::absolute(folder) / "").lexically_normal().parent_path().filename().string();
 }
 
@@ -236,7 +236,7 @@ Study read_study(std::span<const fs::path> folders, double sieve) {
     if (fs::exists(folder) && !seen.insert(fs::canonical(folder)).second)
       throw InputError(fmt::format("{}: is given twice", folder.string()));
     const StudyTable table = table_of(folder);
-    std::string name = campaign_name(folder);
+    std::string name = folder_name(folder);
     if (const int number = ++names[name]; number > 1) name += fmt::format("-{}", number);
     const std::string prefix = folders.size() > 1 ? name + "/" : "";
     add_table(study.table, table, prefix);

@@ -59,7 +59,7 @@ struct Study {
 };
 
 /// The last part of a folder's name.
-std::string campaign_name(const std::filesystem::path& folder);
+std::string folder_name(const std::filesystem::path& folder);
 
 /// Reads the folders of campaigns. `sieve`: of the breakage ratio [m]; 0 = each diameter over 2^(1/4). Throws
 /// InputError naming folder and what is wrong; where no run is done.

@@ -105,9 +105,7 @@ void add_tangential(Findings& findings, const Study& study, const Series& series
   PageSection section{.title = titled("Effect of the tangential velocity", series)};
   section.paragraphs.push_back(
       "At one normal velocity, under all angles: between the speeds that were run by straight lines of the logarithms. "
-      "The "
-      "slope is that of a "
-      "straight line, its interval 95 % by bootstrap.");
+      "The slope is that of a straight line, its interval 95 % by bootstrap.");
   for (const std::string response : responses) {
     PlotInput plot{.title = titled(words(response) + " at fixed normal velocity", series),
                    .x_label = "tangential velocity [m/s]",
@@ -156,21 +154,19 @@ void add_tangential(Findings& findings, const Study& study, const Series& series
 // Without friction the wall cannot tell the tangential velocity: runs of one mesh and seed with the same v sin th are
 // the same run seen from a moving frame.
 void add_frictionless(Findings& findings, const Study& study, const Series& series, Json& json) {
-  constexpr double same = 1e-9, resolution = 1e4;  // of chipping ratios; normal speeds alike to 0.1 mm/s
+  constexpr double same = 1e-9;  // of chipping ratios
   // By normal velocity, then mesh and seed: the steepest angle last.
-  std::map<long, std::map<std::string, std::vector<const StudyRun*>>> alike;
+  std::map<double, std::map<std::string, std::vector<const StudyRun*>>> alike;
   for (const Condition& condition : series.conditions)
     for (const std::size_t i : condition.runs) {
       const StudyRun& run = study.runs[i];
-      alike[std::lround(resolution * run.speed * std::sin(run.angle))][run.mesh + run.seed].push_back(&run);
+      alike[normal_speed(run.speed, run.angle)][run.mesh + run.seed].push_back(&run);
     }
   PageSection section{.title = titled("A wall without friction", series)};
   section.paragraphs.push_back(
       "Without friction damage depends on v sin θ only (the tangential part is a rigid translation): an exact check, "
-      "run by "
-      "run against the steepest angle with the same mesh and seed. Round-off parts runs once cracks branch: then the "
-      "last "
-      "bridge between two pieces breaks or not, while the energy that breaking takes stays the same.");
+      "run by run against the steepest angle with the same mesh and seed. Round-off parts runs once cracks branch: "
+      "then the last bridge between two pieces breaks or not, while the energy that breaking takes stays the same.");
   for (const auto& [normal, by_mesh] : alike) {
     int pairs = 0, equal = 0;
     double largest = 0.0, largest_energy = 0.0;
@@ -185,8 +181,7 @@ void add_frictionless(Findings& findings, const Study& study, const Series& seri
         largest_energy = std::isnan(change) ? change : std::max(largest_energy, change);
       }
     if (pairs == 0) continue;
-    const double speed = static_cast<double>(normal) / resolution;
-    json["frictionless_identity"].push_back({{"normal_speed", speed},
+    json["frictionless_identity"].push_back({{"normal_speed", normal},
                                              {"pairs", pairs},
                                              {"equal_to_1e-9", equal},
                                              {"largest_difference", largest},
@@ -196,11 +191,11 @@ void add_frictionless(Findings& findings, const Study& study, const Series& seri
             ? fmt::format("all {} pairs have the same chipping ratio to 1e-9", pairs)
             : fmt::format("{} of {} pairs have the same chipping ratio to 1e-9, others differ by up to {:.2g}", equal,
                           pairs, largest);
-    section.rows.push_back({fmt::format("energy of breaking at {:.4g} m/s towards the wall differs by", speed),
+    section.rows.push_back({fmt::format("energy of breaking at {:.4g} m/s towards the wall differs by", normal),
                             shown(100.0 * largest_energy) + " %", "", text});
     findings.verdicts.push_back(
         fmt::format("{} at {:.4g} m/s towards the wall: {}; the energy of breaking by up to {} %.",
-                    titled("No friction", series), speed, text, shown(100.0 * largest_energy)));
+                    titled("No friction", series), normal, text, shown(100.0 * largest_energy)));
   }
   if (!section.rows.empty()) findings.sections.push_back(std::move(section));
 }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "core/errors.hpp"
 #include "io/file_output.hpp"
 #include "study/breakage_findings.hpp"
 #include "study/chipping_findings.hpp"
@@ -20,6 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr auto analysis_file = "analysis.json";
 
 // The last frame of a run; empty if it wrote none.
 fs::path last_frame(const fs::path& run) {
@@ -66,13 +69,23 @@ std::string counts(const Study& study) {
   return text;
 }
 
+// An analysis is known by its analysis.json, which is written first and last: nothing else is replaced.
+void check_place(const fs::path& out, const fs::path& page) {
+  if (fs::exists(out / analysis_file)) return;
+  const bool holds_other = fs::exists(out) && !fs::is_empty(out);
+  if (holds_other || fs::exists(page))
+    throw InputError(fmt::format("{}: is there already, and {} holds no analysis; give another folder with --out",
+                                 (holds_other ? out : page).string(), out.string()));
+}
+
 // What an earlier analysis has left and this one may not write.
 void remove_earlier(const fs::path& out, const fs::path& page) {
   fs::remove(page);
   std::vector<fs::path> files;
   for (const auto& entry : fs::directory_iterator(out)) {
     const fs::path ending = entry.path().extension();
-    if (ending == ".png" || ending == ".svg" || ending == ".csv" || ending == ".json") files.push_back(entry.path());
+    const bool is_ours = ending == ".png" || ending == ".svg" || ending == ".csv" || ending == ".json";
+    if (is_ours && entry.path().filename() != analysis_file) files.push_back(entry.path());
   }
   for (const fs::path& file : files) fs::remove(file);
 }
@@ -86,15 +99,16 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
   };
   tell("reading the runs");
   const Study study = read_study(folders, options.sieve);
+  check_place(out, page);
   fs::create_directories(out);
+  write_text_atomically(out / analysis_file, Json{{"title", options.title}, {"status", "unfinished"}}.dump(2) + "\n");
   remove_earlier(out, page);
   Findings findings{.folder = out};
   findings.json = {
       {"title", options.title},
       {"runs", {{"done", study.runs.size()}, {"failed", study.failed}, {"not_done", study.waiting}}},
       {"sieve_m", options.sieve > 0.0 ? Json(options.sieve) : Json("the diameter over 2^(1/4)")},
-      {"units",
-       "SI; angles in degrees from the plane of the wall where a name says deg; intervals are 95 %, bootstrap"}};
+      {"units", "SI; angles in degrees from the plane of the wall where a name says deg; intervals are 95 %"}};
   constexpr std::size_t most_drawn = 20;
   if (const std::size_t series = series_of(study).size(); series > most_drawn) {
     findings.has_plots = false;
@@ -113,8 +127,7 @@ StudyOutcome write_study(std::span<const fs::path> folders, const fs::path& out,
   tell("energies");
   add_energy_findings(findings, study);
   findings.json["verdicts"] = findings.verdicts;
-  write_text_atomically(out / "analysis.json",
-                        findings.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
+  write_text_atomically(out / analysis_file, findings.json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
   tell("report.html");
   write_campaign_page(page, {.title = options.title,
                              .subtitle = counts(study),

@@ -200,6 +200,9 @@ TEST_F(StudyTest, OldFilesDoNotStay) {
   add({.speed = 20.0, .chipping = 0.2});
   fs::create_directories(folder / "analysis");
   std::ofstream(folder / "analysis/population_balance.json") << "of another analysis";
+  EXPECT_THROW(studied(), InputError);  // of whatever: there is no analysis
+  EXPECT_TRUE(fs::exists(folder / "analysis/population_balance.json"));
+  std::ofstream(folder / "analysis/analysis.json") << "{}";
   studied();
   EXPECT_FALSE(fs::exists(folder / "analysis/population_balance.json"));
   EXPECT_TRUE(fs::exists(folder / "analysis/analysis.json"));
