@@ -18,17 +18,23 @@ std::string title_of(const std::vector<fs::path>& folders) {
   return title;
 }
 
+// Of an option: with its unit, or a bare number in SI.
+double positive(const std::string& option, const std::string& text, Quantity quantity) {
+  const bool is_bare = text.find_first_not_of("0123456789.eE+-") == std::string::npos;
+  const Conversion read = convert_to_si(is_bare ? fmt::format("{} {}", text, si_unit(quantity)) : text, quantity);
+  if (!read.problem.empty()) throw InputError(fmt::format("{} \"{}\": {}", option, text, read.problem));
+  if (!(read.value > 0.0)) throw InputError(fmt::format("{} \"{}\": must be above 0", option, text));
+  return read.value;
+}
+
 }  // namespace
 
 ExitCode analyse_command(const AnalyseArguments& arguments) {
   StudyOptions options{.title = title_of(arguments.folders), .broken = arguments.broken};
-  if (!arguments.sieve.empty()) {
-    const Conversion sieve = convert_to_si(arguments.sieve, Quantity::Length);
-    if (!sieve.problem.empty()) throw InputError("--sieve " + arguments.sieve + ": " + sieve.problem);
-    if (!(sieve.value > 0.0)) throw InputError("--sieve " + arguments.sieve + ": must be above 0");
-    options.sieve = sieve.value;
-  }
-  if (!arguments.normal_speeds.empty()) options.normal_speeds = arguments.normal_speeds;
+  if (!arguments.sieve.empty()) options.sieve = positive("--sieve", arguments.sieve, Quantity::Length);
+  if (!arguments.normal_speeds.empty()) options.normal_speeds.clear();
+  for (const std::string& speed : arguments.normal_speeds)
+    options.normal_speeds.push_back(positive("--normal-speeds", speed, Quantity::Speed));
   if (is_terminal(STDOUT_FILENO))
     options.tell = [](const std::string& what) {
       fmt::print("\r\x1b[Kanalysing: {} ...", what);

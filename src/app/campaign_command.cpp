@@ -2,27 +2,21 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <map>
+#include <set>
 #include <thread>
 
+#include "app/campaign_costs.hpp"
 #include "app/commands.hpp"
 #include "app/interrupt.hpp"
-#include "app/run_sanity.hpp"
 #include "app/terminal.hpp"
 #include "campaign/run_campaign.hpp"
 #include "campaign/slurm_engine.hpp"
-#include "config/load_config.hpp"
 #include "io/csv_line.hpp"
 
 namespace knap {
 namespace {
 
 namespace fs = std::filesystem;
-
-// Time of a run before its first step: the program itself and a small mesh [s].
-constexpr double start_seconds = 0.5;
-// Memory of a breaking run over its tets (README, Figures), and of the program itself [bytes].
-constexpr double memory_of_tet = 1300.0, memory_of_program = 60e6;
 
 std::string campaign_name(const fs::path& file) {
   const std::string stem = file.stem().string();  // NAME.campaign of NAME.campaign.toml
@@ -42,7 +36,7 @@ CampaignConfig load(const CampaignArguments& arguments) {
   if (arguments.campaign_file.empty())
     throw InputError("campaign: give a campaign file, such as cases/smoke.campaign.toml");
   CampaignConfig campaign = load_campaign(arguments.campaign_file);
-  campaign.overrides.insert(campaign.overrides.begin(), "run.threads=1");
+  campaign.settings.insert(campaign.settings.begin(), Setting("run.threads=1"));
   return campaign;
 }
 
@@ -50,52 +44,6 @@ std::string duration(double seconds) {
   if (seconds < 99.5) return fmt::format("{:.0f} s", seconds);
   if (seconds < 5970.0) return fmt::format("{:.0f} min", seconds / 60.0);
   return fmt::format("{:.1f} h", seconds / 3600.0);
-}
-
-/// What a run is expected to cost.
-struct Cost {
-  double tets = 0.0, seconds = 0.0, bytes = 0.0;
-  int threads = 0;  ///< 0 = all processors
-};
-
-Cost expected_cost(const RunConfig& config) {
-  const auto shape = particle_shape(config.particles[0]);
-  const SanityCard card =
-      shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config.particles[0]));
-  const double tets = card.input.num_tets;
-  return {tets, start_seconds + card.wall_time, memory_of_program + memory_of_tet * tets, config.run.threads};
-}
-
-// What a run computes, as text: the case without what changes no number of it.
-std::string computed_case(RunConfig config) {
-  if (config.impact.repeat == 1) config.run.seed = 0;  // its other uses are resolved by now
-  config.run.threads = 0;
-  config.output = {};
-  for (ParticleConfig& particle : config.particles)
-    if (particle.fracture.weibull_modulus == 0.0) particle.fracture.weibull_seed = not_given;
-  return effective_toml(config);
-}
-
-// Every case of a campaign is checked before the first one runs, so that nothing fails in the middle of the night; and
-// that no two are the same, which would be taken for a repeat without scatter.
-std::vector<Cost> checked_costs(const CampaignConfig& campaign, const std::vector<CampaignRun>& runs) {
-  std::vector<Cost> costs;
-  std::map<std::string, std::string> run_of_case;
-  for (const CampaignRun& run : runs) {
-    try {
-      const RunConfig config = load_config(campaign.base, overrides_of(campaign, run));
-      const auto [first, is_new] = run_of_case.emplace(computed_case(config), run.name);
-      if (!is_new)
-        throw InputError(
-            fmt::format("would be the same run as {}: run.seed changes nothing where mesh.seed is given and strengths "
-                        "do not scatter; vary mesh.seed, or leave it out of the case",
-                        first->second));
-      costs.push_back(expected_cost(config));
-    } catch (const InputError& error) {
-      throw InputError(fmt::format("run {}: {}", run.name, error.what()));
-    }
-  }
-  return costs;
 }
 
 void show(const CampaignProgress& now, bool is_live) {
@@ -143,10 +91,24 @@ void tell_failures(const CampaignConfig& campaign, const CampaignFolder& folder)
       fmt::print(stderr, "error: {}: {}\n", run.name, status.reason);
 }
 
+// Runs of values that the campaign has no more lie in its folder and count for nothing.
+void tell_orphans(const CampaignFolder& folder, const std::vector<CampaignRun>& runs) {
+  if (!fs::exists(folder.runs())) return;
+  std::set<std::string> names, orphans;
+  for (const CampaignRun& run : runs) names.insert(run.name);
+  for (const auto& entry : fs::directory_iterator(folder.runs()))
+    if (entry.is_directory() && !names.contains(entry.path().filename().string()))
+      orphans.insert(entry.path().filename().string());
+  if (orphans.empty()) return;
+  fmt::print("{} lie in {} that the campaign has no more, such as {}; they are left out of results.csv\n",
+             orphans.size() == 1 ? "results of a run" : fmt::format("results of {} runs", orphans.size()),
+             folder.runs().string(), *orphans.begin());
+}
+
 // The most that any run wants; none where one wants all there are.
-int cpus_of_runs(const std::vector<Cost>& costs) {
+int cpus_of_runs(const std::vector<ExpectedCost>& costs) {
   int cpus = 1;
-  for (const Cost& cost : costs) {
+  for (const ExpectedCost& cost : costs) {
     if (cost.threads == 0) return 0;
     cpus = std::max(cpus, cost.threads);
   }
@@ -154,7 +116,7 @@ int cpus_of_runs(const std::vector<Cost>& costs) {
 }
 
 std::unique_ptr<Engine> engine_of(const CampaignArguments& arguments, const CampaignFolder& folder,
-                                  const std::vector<Cost>& costs) {
+                                  const std::vector<ExpectedCost>& costs) {
   if (arguments.uses_slurm) {
     if (arguments.slurm_options.find('\n') != std::string::npos) throw InputError("--slurm-options: must be one line");
     return make_slurm_engine({folder.path, arguments.jobs, cpus_of_runs(costs), arguments.slurm_options});
@@ -184,7 +146,7 @@ ExitCode campaign_plan_command(const CampaignArguments& arguments) {
   const CampaignConfig campaign = load(arguments);
   const CampaignFolder folder = folder_of(arguments);
   const std::vector<CampaignRun> runs = campaign_runs(campaign);
-  const std::vector<Cost> costs = checked_costs(campaign, runs);
+  const std::vector<ExpectedCost> costs = checked_costs(campaign, runs);
   double seconds = 0.0, most = 0.0;
   std::size_t done = 0, width = 3;
   for (const CampaignRun& run : runs) width = std::max(width, run.name.size());
@@ -202,6 +164,7 @@ ExitCode campaign_plan_command(const CampaignArguments& arguments) {
   const int jobs = num_jobs(arguments);
   fmt::print("\n{} runs, {} done; about {} of one core for the others, {} with {} at a time; memory up to {:.2g} GB\n",
              runs.size(), done, duration(seconds), duration(seconds / jobs), jobs, 1e-9 * most * jobs);
+  tell_orphans(folder, runs);
   if (arguments.scales) tell_scale(campaign, folder);
   std::fflush(stdout);
   return ExitCode::Ok;
@@ -210,12 +173,13 @@ ExitCode campaign_plan_command(const CampaignArguments& arguments) {
 ExitCode campaign_command(const CampaignArguments& arguments) {
   const CampaignConfig campaign = load(arguments);
   const CampaignFolder folder = folder_of(arguments);
-  const std::vector<Cost> costs = checked_costs(campaign, campaign_runs(campaign));
+  const std::vector<CampaignRun> runs = campaign_runs(campaign);
+  const std::vector<ExpectedCost> costs = checked_costs(campaign, runs);
   catch_interrupts();
   const auto engine = engine_of(arguments, folder, costs);
   CampaignOptions options{folder, read_text(arguments.campaign_file), fs::read_symlink("/proc/self/exe"),
                           arguments.retries_failed};
-  for (const Cost& cost : costs) options.efforts.push_back(cost.seconds);
+  for (const ExpectedCost& cost : costs) options.efforts.push_back(cost.seconds);
   const CampaignProgress end = run_campaign(campaign, options, *engine, live_table(), interrupt_requested());
   if (is_terminal(STDOUT_FILENO)) fmt::print("\n");
   tell_failures(campaign, folder);
@@ -225,6 +189,9 @@ ExitCode campaign_command(const CampaignArguments& arguments) {
   }
   fmt::print("{} runs done ({} of them before), {} failed; results in {}\n", end.done, end.done_before, end.failed,
              folder.results().string());
+  if (end.failed > 0)
+    fmt::print("what failed is tried again with --retry; its output is in {}/logs\n", folder.path.string());
+  tell_orphans(folder, runs);
   std::fflush(stdout);
   const bool has_new_runs = end.done > end.done_before || !fs::exists(folder.path / "report.html");
   const bool is_analysed = end.done == 0 || !has_new_runs || analyses(folder.path);

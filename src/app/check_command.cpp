@@ -10,9 +10,7 @@ namespace knap {
 ExitCode check_command(const CheckArguments& arguments) {
   const RunConfig config = load_config(arguments.case_file, arguments.overrides);
   set_num_threads(config.run.threads);
-  const auto shape = particle_shape(config.particles[0]);
-  const SanityCard card =
-      shape ? estimated_card(config, *shape) : mesh_card(config, make_particle_mesh(config.particles[0]));
+  const SanityCard card = expected_card(config);
   fmt::print("{}", format_sanity_card(card));
   std::fflush(stdout);
   const auto reasons = refusals(card);

@@ -114,11 +114,24 @@ CLI::App* add_analyse(CLI::App& app, AnalyseArguments& analyse) {
       ->capture_default_str();
   command
       ->add_option("--normal-speeds", analyse.normal_speeds,
-                   "Speeds towards the wall [m/s] at which the tangential effect is told; default: 8,14")
+                   "Speeds towards the wall at which the tangential effect is told; default: \"8 m/s,14 m/s\"")
       ->type_name("V,...")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber);
+      ->delimiter(',');
+  command->alias("analyze");
   return command;
+}
+
+// CLI11 only says that a command is required.
+void check_command_name(const CLI::App& app, const std::string& word) {
+  if (word.empty() || word.front() == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->check_name(word)) return;
+    names.push_back(command->get_name());
+  }
+  const std::string nearest = nearest_name(word, names);
+  throw InputError(fmt::format("knap has no command \"{}\"{}; knap --help lists them", word,
+                               nearest.empty() ? "" : fmt::format(" (did you mean \"{}\"?)", nearest)));
 }
 
 int run_parsed(int argc, char** argv) {
@@ -145,6 +158,7 @@ int run_parsed(int argc, char** argv) {
   const CLI::App* analyse_app = add_analyse(app, analyse);
   CLI::App* keys_app = app.add_subcommand("keys", "Print every key of a case file");
   keys_app->add_flag("--markdown", markdown, "As a page of documentation");
+  if (argc > 1) check_command_name(app, argv[1]);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

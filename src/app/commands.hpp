@@ -75,7 +75,7 @@ struct AnalyseArguments {
   std::filesystem::path out{};                   ///< "" = the folder of the first one
   std::string sieve{};                           ///< of the breakage ratio, a length; "" = the diameter over 2^(1/4)
   double broken = 0.1;                           ///< mass loss from which a particle is broken
-  std::vector<double> normal_speeds{};           ///< of the tangential effect [m/s]; empty = 8 and 14
+  std::vector<std::string> normal_speeds{};      ///< of the tangential effect; empty = 8 and 14 m/s
 };
 /// Analyses the runs of campaigns: fits, tables, plots, report.html.
 ExitCode analyse_command(const AnalyseArguments& arguments);

@@ -198,16 +198,6 @@ SanityInput mesh_input(const RunConfig& config, const ParticleMesh& particle) {
   return input;
 }
 
-}  // namespace
-
-double mode_ii_ratio(const ParticleConfig& particle, const ParticleMesh& mesh) {
-  SanityInput input = material_input(particle);
-  if (!input.fracture) return particle.fracture.mode_ii_ratio;
-  input.diameter = mesh.diameter;
-  input.contact_element_size = mesh.contact_element_size;
-  return mesh_mode_ii_ratio(input);
-}
-
 SanityCard estimated_card(const RunConfig& config, const Shape& shape) {
   SanityInput input = case_input(config);
   input.volume = volume(shape);
@@ -219,8 +209,19 @@ SanityCard estimated_card(const RunConfig& config, const Shape& shape) {
   return card_with_estimated_step(config, std::move(input));
 }
 
-SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle) {
-  return card_with_estimated_step(config, mesh_input(config, particle));
+}  // namespace
+
+double mode_ii_ratio(const ParticleConfig& particle, const ParticleMesh& mesh) {
+  SanityInput input = material_input(particle);
+  if (!input.fracture) return particle.fracture.mode_ii_ratio;
+  input.diameter = mesh.diameter;
+  input.contact_element_size = mesh.contact_element_size;
+  return mesh_mode_ii_ratio(input);
+}
+
+SanityCard expected_card(const RunConfig& config) {
+  if (const auto shape = particle_shape(config.particles[0])) return estimated_card(config, *shape);
+  return card_with_estimated_step(config, mesh_input(config, make_particle_mesh(config.particles[0])));
 }
 
 SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s) {

@@ -6,10 +6,9 @@
 
 namespace knap {
 
-/// The card of a case from estimates alone: nominal element sizes, expected number of tets and time step.
-SanityCard estimated_card(const RunConfig& config, const Shape& shape);
-/// The card of a mesh before a run is made of it; the time step is estimated.
-SanityCard mesh_card(const RunConfig& config, const ParticleMesh& particle);
+/// The card of a case before a run is made of it, by its first particle: nominal element sizes and the expected number
+/// of tets, or the mesh that the case brings; the time step is estimated.
+SanityCard expected_card(const RunConfig& config);
 /// The card of a run about to start, by its first particle; times a few steps of a copy of it.
 SanityCard run_card(const RunConfig& config, const ParticleMesh& particle, const Simulation& s);
 

@@ -54,7 +54,7 @@ RunStatus status_of(const CampaignFolder& folder, const CampaignConfig& campaign
   look_again(folder.run(run));
   const fs::path effective = folder.run(run) / "effective.toml";
   if (!fs::exists(effective)) return status;
-  if (read_text(effective) != effective_toml(load_config(campaign.base, overrides_of(campaign, run))))
+  if (read_text(effective) != effective_toml(load_config(campaign.base, settings_of(campaign, run))))
     throw InputError(fmt::format(
         "{}: was run with another case: the campaign or its base has changed since; give another folder with --out",
         folder.run(run).string()));

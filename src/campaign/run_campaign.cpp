@@ -105,7 +105,7 @@ class Session {
     waiting_.pop_front();
     const CampaignRun& run = runs_[i];
     std::vector<std::string> command{options_.program.string(), "run", campaign_.base.string()};
-    for (const std::string& text : overrides_of(campaign_, run)) command.insert(command.end(), {"--set", text});
+    for (const Setting& setting : settings_of(campaign_, run)) command.insert(command.end(), {"--set", setting.text});
     command.insert(command.end(), {"--out", options_.folder.run(run).string(), "--quiet",
                                    status_[i].can_resume ? "--resume" : "--overwrite"});
     engine_.start({i, run.name, std::move(command), options_.folder.log(run)});

@@ -205,9 +205,9 @@ void read_values(const Entry& entry, CampaignAxis& axis, Problems& problems) {
 }
 
 void read_axis(const Table& table, CampaignConfig& campaign, Problems& problems) {
-  CampaignAxis axis;
-  read_axis_keys(table, axis, problems);
   const Entry* values = table.find("values");
+  CampaignAxis axis{.keys = {}, .values = {}, .place = values ? values->place : table.place};
+  read_axis_keys(table, axis, problems);
   const bool has_range = table.find("from") || table.find("to") || table.find("count") || table.find("spacing");
   if (values && has_range)
     complain(*values, "give either values, or from, to, count and spacing", problems);
@@ -236,7 +236,8 @@ void read_sample(const Table& table, CampaignConfig& campaign, Problems& problem
                                 .high = span->to.number,
                                 .unit = span->from.unit,
                                 .is_logarithmic = span->is_logarithmic,
-                                .is_integer = span->from.is_integer && span->to.is_integer});
+                                .is_integer = span->from.is_integer && span->to.is_integer,
+                                .place = table.place});
 }
 
 void read_integer(const Table& table, const std::string& key, std::int64_t low, std::int64_t high, std::int64_t& into,
@@ -254,7 +255,7 @@ void read_set(const Table& table, CampaignConfig& campaign, Problems& problems) 
   for (const auto& [key, entry] : table.entries) {
     const std::string full = table.name.part.empty() ? key : table.name.part + "." + key;
     if (is_key(full))
-      campaign.overrides.push_back(fmt::format("{}={}", full, override_text(entry->value)));
+      campaign.settings.emplace_back(fmt::format("{}={}", full, override_text(entry->value)), entry->place);
     else
       complain(*entry, "must be a key of the case in quotes, such as \"output.frames\" = 0", problems);
   }
@@ -320,8 +321,11 @@ void read_base(const Table* table, const fs::path& folder, const std::string& fi
         fmt::format("{}: campaign.base is missing: the case file to start from", table ? table->place : file));
   else if (!path || path->empty())
     complain(*base, "must be a path in quotes", problems);
-  else
-    campaign.base = folder / *path;
+  else if (campaign.base = folder / *path; !fs::is_regular_file(campaign.base))
+    complain(
+        *base,
+        fmt::format("there is no case file {}; the path is relative to the campaign's file", campaign.base.string()),
+        problems);
 }
 
 // Each key once, and no more runs than anyone wants by mistake.
@@ -429,7 +433,7 @@ CampaignConfig campaign_from_text(std::string_view text, const fs::path& file) {
   campaign.samples = static_cast<int>(samples);
   read_base(head, file.parent_path(), file.string(), campaign, problems);
   if (problems.empty()) check_whole(campaign, file.string(), problems);
-  if (!problems.empty()) throw InputError(fmt::format("{}", fmt::join(problems, "\n")));
+  throw_if_any(problems);
   return campaign;
 }
 
@@ -489,11 +493,16 @@ Value value_of(const std::string& key, const std::string& text) {
   return read.value;
 }
 
-std::vector<std::string> overrides_of(const CampaignConfig& campaign, const CampaignRun& run) {
-  std::vector<std::string> overrides = campaign.overrides;
-  const std::vector<std::string> keys = campaign_keys(campaign);
-  for (std::size_t k = 0; k < keys.size(); ++k) overrides.push_back(fmt::format("{}={}", keys[k], run.values[k]));
-  return overrides;
+std::vector<Setting> settings_of(const CampaignConfig& campaign, const CampaignRun& run) {
+  std::vector<Setting> settings = campaign.settings;
+  std::size_t next = 0;
+  const auto set = [&](const std::string& key, const std::string& place) {
+    settings.emplace_back(fmt::format("{}={}", key, run.values[next++]), place);
+  };
+  for (const CampaignAxis& axis : campaign.axes)
+    for (const std::string& key : axis.keys) set(key, axis.place);
+  for (const SampledKey& sampled : campaign.sampled) set(sampled.key, sampled.place);
+  return settings;
 }
 
 }  // namespace knap

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "config/case_document.hpp"
 #include "config/schema.hpp"
 
 namespace knap {
@@ -14,6 +15,7 @@ namespace knap {
 struct CampaignAxis {
   std::vector<std::string> keys;                 ///< "impact.speed"
   std::vector<std::vector<std::string>> values;  ///< [value][key], as --set takes it
+  std::string place{};                           ///< of the values, "study.campaign.toml:12:1"
 };
 
 /// A key whose values are drawn by Latin hypercube, in the unit both ends were given in.
@@ -23,11 +25,12 @@ struct SampledKey {
   std::string unit;  ///< behind the number; "" = SI
   bool is_logarithmic = false;
   bool is_integer = false;
+  std::string place{};  ///< of its table
 };
 
 struct CampaignConfig {
-  std::filesystem::path base;          ///< case file
-  std::vector<std::string> overrides;  ///< of all runs, section.key=value
+  std::filesystem::path base;     ///< case file
+  std::vector<Setting> settings;  ///< of all runs
   std::vector<CampaignAxis> axes;
   std::vector<SampledKey> sampled;
   int samples = 0;  ///< of the Latin hypercube, each combined with all values of the axes; 0 = none
@@ -50,8 +53,8 @@ CampaignConfig campaign_from_text(std::string_view text, const std::filesystem::
 std::vector<std::string> campaign_keys(const CampaignConfig& campaign);
 /// All runs, the last axis fastest. Names do not depend on which other values an axis has, so that a campaign can grow.
 std::vector<CampaignRun> campaign_runs(const CampaignConfig& campaign);
-/// What a run sets of its case: the campaign's overrides, then its own.
-std::vector<std::string> overrides_of(const CampaignConfig& campaign, const CampaignRun& run);
+/// What a run sets of its case: the campaign's settings, then its own.
+std::vector<Setting> settings_of(const CampaignConfig& campaign, const CampaignRun& run);
 
 /// "impact.speed [m/s]": a key as a column of a table.
 std::string column_of(const std::string& key);

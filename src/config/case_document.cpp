@@ -213,11 +213,12 @@ RawValue parse_loose_value(std::string_view text) {
   return {std::string(text)};
 }
 
-Override parse_override(const std::string& override_text) {
-  const std::string place = "command line --set " + shortened(override_text);
-  const std::size_t equals = override_text.find('=');
+Override parse_override(const Setting& setting) {
+  const std::string& text = setting.text;
+  const std::string place = setting.place.empty() ? "command line --set " + shortened(text) : setting.place;
+  const std::size_t equals = text.find('=');
   std::vector<std::string> path{""};
-  for (const char c : trimmed(override_text.substr(0, equals))) {
+  for (const char c : trimmed(text.substr(0, equals))) {
     if (c == '.') {
       path.emplace_back();
     } else {
@@ -227,7 +228,7 @@ Override parse_override(const std::string& override_text) {
   const bool has_gap = std::any_of(path.begin(), path.end(), [](const std::string& word) { return word.empty(); });
   if (equals == std::string::npos || has_gap || path.size() < 2 || path.size() > 4)
     throw InputError(place + ": must have the form section.key=value, such as impact.speed=15m/s");
-  const std::string value = trimmed(override_text.substr(equals + 1));
+  const std::string value = trimmed(text.substr(equals + 1));
   if (value.empty()) throw InputError(place + ": has no value after '='");
   return {std::move(path), parse_loose_value(value), place};
 }

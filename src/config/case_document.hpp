@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,7 +41,15 @@ struct Entry {
   bool from_command_line = false;
 };
 
-/// A value given on the command line: the words before the '=', two to four of them.
+/// A value set beside the case file, by the command line or a campaign, which wins over the file's.
+struct Setting {
+  Setting(std::string text_, std::string place_ = "") : text(std::move(text_)), place(std::move(place_)) {}
+
+  std::string text;   ///< "section.key=value"
+  std::string place;  ///< "study.campaign.toml:12:9"; "" = --set on the command line
+};
+
+/// What a Setting says: the words before the '=', two to four of them.
 struct Override {
   std::vector<std::string> path;
   RawValue value;
@@ -60,6 +69,6 @@ CaseDocument parse_document(std::string_view text, const std::string& file);
 RawValue parse_loose_value(std::string_view text);
 
 /// Splits "section.key=value". Throws InputError when it has another form.
-Override parse_override(const std::string& override_text);
+Override parse_override(const Setting& setting);
 
 }  // namespace knap

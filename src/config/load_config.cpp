@@ -21,15 +21,6 @@ namespace {
 namespace fs = std::filesystem;
 using Problems = std::vector<std::string>;
 
-void throw_if_any(const Problems& problems) {
-  if (problems.empty()) return;
-  constexpr std::size_t most_shown = 20;
-  std::string text;
-  for (std::size_t i = 0; i < problems.size() && i < most_shown; ++i) text += (i ? "\n" : "") + problems[i];
-  if (problems.size() > most_shown) text += fmt::format("\n... and {} more", problems.size() - most_shown);
-  throw InputError(text);
-}
-
 Value trusted_value(const Key& key, const std::string& text) {
   ReadValue read = read_value(key, parse_loose_value(text), {});
   assert(read.problem.empty());
@@ -242,12 +233,14 @@ std::string file_text(const fs::path& file) {
   return text;
 }
 
-}  // namespace
+std::vector<Setting> settings_of(std::span<const std::string> overrides) {
+  return {overrides.begin(), overrides.end()};
+}
 
-RunConfig config_from_text(std::string_view text, const fs::path& case_file, std::span<const std::string> overrides) {
+RunConfig checked_config(std::string_view text, const fs::path& case_file, std::span<const Setting> settings) {
   const CaseDocument document = parse_document(text, case_file.string());
   std::vector<Override> items;
-  for (const std::string& item : overrides) items.push_back(parse_override(item));
+  for (const Setting& setting : settings) items.push_back(parse_override(setting));
   Problems problems;
   const GivenKeys given = read_given_keys(document, items, fs::absolute(case_file).parent_path(), problems);
   throw_if_any(problems);
@@ -264,8 +257,18 @@ RunConfig config_from_text(std::string_view text, const fs::path& case_file, std
   return config;
 }
 
+}  // namespace
+
+RunConfig load_config(const fs::path& case_file, std::span<const Setting> settings) {
+  return checked_config(file_text(case_file), case_file, settings);
+}
+
 RunConfig load_config(const fs::path& case_file, std::span<const std::string> overrides) {
-  return config_from_text(file_text(case_file), case_file, overrides);
+  return load_config(case_file, settings_of(overrides));
+}
+
+RunConfig config_from_text(std::string_view text, const fs::path& case_file, std::span<const std::string> overrides) {
+  return checked_config(text, case_file, settings_of(overrides));
 }
 
 }  // namespace knap

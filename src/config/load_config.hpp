@@ -4,12 +4,15 @@
 #include <string>
 #include <string_view>
 
+#include "config/case_document.hpp"
 #include "config/run_config.hpp"
 
 namespace knap {
 
-/// Reads a case file, lets `section.key=value` overrides from the command line win over it, checks everything and fills
-/// in all defaults. Throws InputError with one line for each mistake found, as "case.toml:12:9: impact.speed = ...".
+/// Reads a case file, lets what is set beside it win over it, checks everything and fills in all defaults. Throws
+/// InputError with one line for each mistake found, as "case.toml:12:9: impact.speed = ...".
+RunConfig load_config(const std::filesystem::path& case_file, std::span<const Setting> settings);
+/// With what --set gives: `section.key=value`.
 RunConfig load_config(const std::filesystem::path& case_file, std::span<const std::string> overrides = {});
 
 /// The same from the text of a case; `case_file` is named in messages and its folder is where relative paths start.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
@@ -221,6 +222,8 @@ std::string expectation(Quantity expected) {
 }
 
 std::string unknown_unit(std::string_view unit, Quantity expected) {
+  if (unit.size() > 1 && unit[0] == ',' && std::isdigit(static_cast<unsigned char>(unit[1])))
+    return fmt::format("has a decimal comma, write a point; {}", expectation(expected));
   std::vector<std::string> candidates;
   std::string_view rest = sample_units(expected);
   while (!rest.empty()) {

@@ -24,6 +24,15 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
+void throw_if_any(const std::vector<std::string>& problems) {
+  if (problems.empty()) return;
+  constexpr std::size_t most_shown = 20;
+  std::string text;
+  for (std::size_t i = 0; i < problems.size() && i < most_shown; ++i) text += (i > 0 ? "\n" : "") + problems[i];
+  if (problems.size() > most_shown) text += "\n... and " + std::to_string(problems.size() - most_shown) + " more";
+  throw InputError(text);
+}
+
 std::string nearest_name(const std::string& word, const std::vector<std::string>& candidates) {
   std::string best;
   std::size_t best_distance = std::max<std::size_t>(2, word.size() / 2) + 1;

@@ -20,6 +20,9 @@ class RuntimeFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Throws InputError with a line for each of the problems, the first twenty of them; nothing if there are none.
+void throw_if_any(const std::vector<std::string>& problems);
+
 /// The candidate nearest to `word` in edit distance, or "" when none is close enough to suggest.
 std::string nearest_name(const std::string& word, const std::vector<std::string>& candidates);
 

@@ -127,6 +127,9 @@ void write_tables(const Findings& findings, const Balance& balance, const std::s
   write_table(findings.folder / ("breakage" + suffix + ".csv"), breakage_columns, breakage_rows);
 }
 
+// Whether the data determine every value of a fit.
+bool is_resolved(const Fit& fit) { return fit.covariance.size() > 0; }
+
 Json law_json(const std::string& law, const Fit& fit) {
   Json json{{"law", law}};
   for (std::size_t i = 0; i < fit.values.size(); ++i) json[fit.parameters[i].name] = fit.values[i];
@@ -153,7 +156,7 @@ Json balance_json(const Balance& balance, const BalanceInput& input, const SizeL
            {{"law", "S = 1 - exp(-f_mat x (W - W_min)), x W_min constant (Vogel & Peukert 2003)"},
             {"f_mat_kg_per_J_m", vogel.value("f_x") / input.diameter},
             {"x_W_min_J_m_per_kg", vogel.value("W_min") * input.diameter}}},
-          {"selection_is_resolved", vogel.covariance.size() > 0},
+          {"selection_is_resolved", is_resolved(vogel)},
           {"breakage_is", "the mean of the broken particles, between sieves by straight lines of the logarithms"},
           {"breakage_laws",
            {law_json("B = (x/y)^q (1 + tanh((x - x')/x')) over its value at x = y, x' = r y", laws.tanh),
@@ -181,7 +184,8 @@ void add_population_balance(Findings& findings, PageSection& section, const Stud
   json["population_balance"] = {{"file", file}, {"mass_error_of_one_step", balance.mass_error}};
   section.rows.push_back({"population balance: mass error of one step of grinding",
                           fmt::format("{:.1g}", balance.mass_error), "",
-                          fmt::format("{0}, selection{1}.csv, breakage{1}.csv", file, input.suffix)});
+                          fmt::format("{0}, breakage{1}.csv, selection{1}.csv{2}", file, input.suffix,
+                                      is_resolved(input.selection) ? "" : ": the data leave f_mat or W_min open")});
   const PlotSeries points{
       .name = "broken particles", .x = measured.z, .y = measured.finer, .style = PlotSeries::Style::Points};
   add_fit_figures(findings, section, "breakage_distribution" + input.suffix,

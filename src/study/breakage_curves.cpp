@@ -15,6 +15,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+// The mean edge of the coarsest mesh [m].
+double largest_element(const Study& study, const Series& series) {
+  double size = 0.0;
+  for (const Condition& condition : series.conditions)
+    for (const std::size_t i : condition.runs) size = std::max(size, study.runs[i].element_size);
+  return size;
+}
+
 void add_curves(Findings& findings, const Study& study, const Series& series, const std::string& suffix) {
   PageSection section{.title = titled("Breakage over speed and angle", series)};
   section.paragraphs.push_back(fmt::format(
@@ -45,6 +53,13 @@ void add_curves(Findings& findings, const Study& study, const Series& series, co
     join_points(plot);
     return plot;
   };
+  if (const double floor = largest_element(study, series); study.sieve > 0.0 && study.sieve < floor) {
+    const std::string warning = fmt::format(
+        "The sieve of {:.4g} mm is finer than the mesh resolves, {:.4g} mm: the breakage ratio is the mesh's.",
+        1e3 * study.sieve, 1e3 * floor);
+    section.paragraphs.push_back(warning);
+    findings.verdicts.push_back(titled("Breakage ratio", series) + ": " + warning);
+  }
   PlotInput plot = over_angle("breakage_ratio");
   plot.title = titled("breakage ratio over angle", series);
   plot.x_label = "impact angle from the wall [deg]", plot.y_label = "breakage ratio [-]";

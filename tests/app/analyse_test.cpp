@@ -33,7 +33,7 @@ TEST_F(Analyse, IsMadeAtTheEndOfACampaignAndCanBeMadeAgain) {
   EXPECT_EQ(first["runs"]["done"], 4);
   EXPECT_EQ(first["chipping"][0]["class_map"].size(), 4U);
   const std::string table = content(folder / "c/results.csv");
-  const Ended again = run({"analyse", "c", "--out", "elsewhere", "--sieve", "1 mm", "--normal-speeds", "15"});
+  const Ended again = run({"analyse", "c", "--out", "elsewhere", "--sieve", "1 mm", "--normal-speeds", "15 m/s,9"});
   ASSERT_EQ(again.code, 0) << again.err;
   EXPECT_TRUE(fs::exists(folder / "elsewhere/report.html"));
   EXPECT_EQ(analysis("elsewhere")["sieve_m"], 1e-3);
@@ -64,9 +64,10 @@ TEST_F(Analyse, SaysWhatIsWrong) {
   EXPECT_EQ(run({"analyse", "nowhere"}).code, 2);
   EXPECT_THAT(run({"analyse", "nowhere"}).err,
               HasSubstr("error: nowhere: holds no results.csv: give the folder of a campaign"));
-  EXPECT_THAT(run({"analyse", ".", "--sieve", "1 kg"}).err, HasSubstr("--sieve 1 kg"));
+  EXPECT_THAT(run({"analyse", ".", "--sieve", "1 kg"}).err, HasSubstr("--sieve \"1 kg\""));
   EXPECT_EQ(run({"analyse", ".", "--broken", "2"}).code, 2);
-  EXPECT_EQ(run({"analyse", ".", "--normal-speeds", "8,x"}).code, 2);
+  EXPECT_THAT(run({"analyse", ".", "--normal-speeds", "8,x"}).err, HasSubstr("--normal-speeds \"x\": "));
+  EXPECT_THAT(run({"analyse", ".", "--normal-speeds", "0"}).err, HasSubstr("must be above 0"));
   EXPECT_EQ(run({"analyse"}).code, 2);
 }
 

@@ -35,9 +35,8 @@ TEST_F(CampaignRuns, RefusesRepeatsThatWouldBeTheSameRun) {
   write("case.toml", text);
   const Ended ended = run_campaign();
   EXPECT_EQ(ended.code, 2);
-  EXPECT_THAT(
-      ended.err,
-      HasSubstr("run speed_15mps-seed_2: would be the same run as speed_15mps-seed_1: run.seed changes nothing"));
+  EXPECT_THAT(ended.err, AllOf(HasSubstr("the same run as speed_15mps-seed_1: run.seed changes nothing"),
+                               HasSubstr("(run speed_15mps-seed_2)")));
   EXPECT_FALSE(fs::exists(folder / "c"));
 }
 
@@ -95,13 +94,38 @@ TEST_F(CampaignRuns, TwoOnOneFolderAreRefused) {
   EXPECT_EQ(results().size(), 4u);
 }
 
-TEST_F(CampaignRuns, AMistakeStopsItBeforeTheFirstRun) {
-  write("study.campaign.toml", campaign("[\"15 m/s\", \"15 kg\"]"));
+TEST_F(CampaignRuns, MistakesStopItBeforeTheFirstRun) {
+  write("study.campaign.toml", campaign("[\"15 m/s\", \"15 kg\", \"-15 m/s\"]", "\"impact.wall_frction\" = 0.1\n"));
   const Ended ended = run_campaign();
   EXPECT_EQ(ended.code, 2);
-  EXPECT_THAT(ended.err, HasSubstr("run speed_15kg-seed_1: "));
-  EXPECT_THAT(ended.err, HasSubstr("impact.speed"));
+  EXPECT_THAT(ended.err,
+              HasSubstr("error: study.campaign.toml:6:25: [impact] has no key \"wall_frction\" (did you mean "
+                        "\"wall_friction\"?) (run speed_15mps-seed_1 and 5 more)\n"));
+  EXPECT_THAT(ended.err, HasSubstr("error: study.campaign.toml:9:10: impact.speed = \"15 kg\": "));
+  EXPECT_THAT(ended.err, HasSubstr("(run speed_15kg-seed_1 and 1 more)\n"));
+  EXPECT_THAT(ended.err, HasSubstr("error: study.campaign.toml:9:10: impact.speed = \"-15 m/s\": "));
   EXPECT_FALSE(fs::exists(folder / "c"));
+}
+
+TEST_F(CampaignRuns, ThePlanRefusesWhatARunWould) {
+  write("study.campaign.toml", campaign("[\"15 m/s\"]", "\"fracture.allow_unresolved\" = false\n"));
+  const Ended run_alone = run({"run", "case.toml", "--set", "fracture.allow_unresolved=false"});
+  EXPECT_EQ(run_alone.code, 2);
+  EXPECT_THAT(run_alone.err, HasSubstr("the cohesive zone of"));
+  for (const Ended& ended : {run({"campaign", "plan", "study.campaign.toml"}), run_campaign()}) {
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.err, AllOf(HasSubstr("the cohesive zone of"), HasSubstr("(run speed_15mps-seed_1 and 1 more)")));
+  }
+}
+
+TEST_F(CampaignRuns, RunsItHasNoMoreAreTold) {
+  ASSERT_EQ(run_campaign().code, 0);
+  write("study.campaign.toml", campaign("[\"25 m/s\"]"));
+  const Ended ended = run_campaign();
+  EXPECT_EQ(ended.code, 0);
+  EXPECT_THAT(ended.out, HasSubstr("results of 2 runs lie in c/runs that the campaign has no more, such as "
+                                   "speed_15mps-seed_1; they are left out of results.csv"));
+  EXPECT_EQ(results().size(), 2u);
 }
 
 TEST_F(CampaignRuns, ChangedCasesAndForeignFoldersAreLeftAlone) {

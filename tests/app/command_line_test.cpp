@@ -39,6 +39,13 @@ TEST_F(CommandLine, WrongArgumentsExitWith2) {
   EXPECT_FALSE(fs::exists(folder / "out"));
 }
 
+TEST_F(CommandLine, MisspeltCommandIsNamedWithTheNearestOne) {
+  const Ended ended = run({"campain", "plan"});
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.err, "error: knap has no command \"campain\" (did you mean \"campaign\"?); knap --help lists them\n");
+  EXPECT_EQ(run({"analyze", "--help"}).code, 0);
+}
+
 TEST_F(CommandLine, MisspeltKeyIsNamedWithTheNearestOne) {
   write("bad.toml", std::string(breaking_case) + "[fractur]\nbeta = 1\n");
   EXPECT_THAT(run({"run", "bad.toml"}).err, AllOf(StartsWith("error: bad.toml:"), HasSubstr("\"fracture\"")));

@@ -14,7 +14,7 @@ SanityCard card(const std::vector<std::string>& overrides) {
   const RunConfig config = config_from_text(
       "[particle]\ndiameter = \"2 mm\"\n[material]\npreset = \"zeolite_4ak\"\n[impact]\nspeed = \"20 m/s\"\n",
       "case.toml", overrides);
-  return estimated_card(config, Sphere{2e-3});
+  return expected_card(config);
 }
 
 TEST(RunSanity, AnElasticRunIsExpectedToEndTenCrossingsAfterItsContact) {
@@ -79,7 +79,7 @@ SanityCard card_of_tool(const std::string& motion) {
       "[[tool]]\ntype = \"platen\"\nradius = 0.003\nnormal = [0, 0, -1]\nvelocity = [0, 0, -0.5]\n" +
           motion,
       "case.toml");
-  return estimated_card(config, Sphere{2e-3});
+  return expected_card(config);
 }
 
 // A tool that goes on loads the particle until it breaks, however slow it is: the contact grows to what an impact at

@@ -15,8 +15,10 @@ namespace {
 using testing::ElementsAre;
 using testing::HasSubstr;
 
+const std::string folder = KNAP_SOURCE_DIR "/cases/";
+
 CampaignConfig campaign_of(const std::string& text) {
-  return campaign_from_text("[campaign]\nbase = \"case.toml\"\n" + text, "some/study.campaign.toml");
+  return campaign_from_text("[campaign]\nbase = \"normal_impact.toml\"\n" + text, folder + "study.campaign.toml");
 }
 
 std::string complaint(const std::string& text) {
@@ -35,14 +37,19 @@ TEST(Campaign, CombinesEveryValueWithEveryOther) {
       campaign_of(std::string("[set]\n\"output.frames\" = 0\n[set.mesh]\nseed = 4\n") + speeds +
                   "[[axis]]\nkeys = [\"mesh.element_size\", \"mesh.contact_element_size\"]\n"
                   "values = [[\"0.2 mm\", \"0.1 mm\"], [\"0.3 mm\", \"0.15 mm\"]]\n");
-  EXPECT_EQ(campaign.base, "some/case.toml");
+  EXPECT_EQ(campaign.base, folder + "normal_impact.toml");
   EXPECT_THAT(campaign_keys(campaign), ElementsAre("impact.speed", "mesh.element_size", "mesh.contact_element_size"));
   const auto runs = campaign_runs(campaign);
   ASSERT_EQ(runs.size(), 4u);
   EXPECT_EQ(runs[0].name, "speed_8mps-element_size_0.2mm-contact_element_size_0.1mm");
-  EXPECT_THAT(overrides_of(campaign, runs[3]),
-              ElementsAre("output.frames=0", "mesh.seed=4", "impact.speed=14", "mesh.element_size=0.3 mm",
-                          "mesh.contact_element_size=0.15 mm"));
+  std::vector<std::string> texts, lines;
+  for (const Setting& setting : settings_of(campaign, runs[3])) {
+    texts.push_back(setting.text);
+    lines.push_back(setting.place.substr(setting.place.find(".toml:") + 6));
+  }
+  EXPECT_THAT(texts, ElementsAre("output.frames=0", "mesh.seed=4", "impact.speed=14", "mesh.element_size=0.3 mm",
+                                 "mesh.contact_element_size=0.15 mm"));
+  EXPECT_THAT(lines, ElementsAre("4:19", "6:8", "9:10", "12:10", "12:10"));
 }
 
 TEST(Campaign, RangesKeepTheirUnit) {
@@ -113,13 +120,23 @@ TEST(Campaign, MistakesAreToldWithPlaceAndRemedy) {
   EXPECT_THROW(campaign_from_text("[[axis]]\nkey = \"a.b\"\nvalues = [1]\n", "c.toml"), InputError);
 }
 
+TEST(Campaign, AMissingBaseIsToldWithItsWholePath) {
+  try {
+    campaign_from_text(std::string("[campaign]\nbase = \"no.toml\"\n") + speeds, folder + "study.campaign.toml");
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("study.campaign.toml:2:8: campaign.base = \"no.toml\": there is no case file " +
+                                        folder + "no.toml"));
+  }
+}
+
 TEST(Campaign, EveryRunOfEveryShippedOneLoads) {
   int runs = 0;
   for (const auto& file : std::filesystem::directory_iterator(KNAP_SOURCE_DIR "/cases")) {
     if (file.path().stem().extension() != ".campaign") continue;
     const CampaignConfig campaign = load_campaign(file.path());
     for (const CampaignRun& run : campaign_runs(campaign)) {
-      EXPECT_NO_THROW(load_config(campaign.base, overrides_of(campaign, run))) << file.path() << " " << run.name;
+      EXPECT_NO_THROW(load_config(campaign.base, settings_of(campaign, run))) << file.path() << " " << run.name;
       ++runs;
     }
   }

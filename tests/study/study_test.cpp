@@ -347,6 +347,19 @@ TEST_F(StudyTest, TheSieveDecidesTheBreakageRatio) {
   EXPECT_THROW(read_study(folders, diameter), InputError);
 }
 
+TEST_F(StudyTest, ASieveFinerThanTheMeshIsTold) {
+  for (const double speed : {20.0, 30.0}) add({.speed = speed, .chipping = 0.2});
+  const auto is_told = [&](double sieve) {
+    studied({.title = "made up", .sieve = sieve});
+    const auto about_it = [](const std::string& verdict) {
+      return verdict.find("is finer than the mesh") != std::string::npos;
+    };
+    return std::any_of(outcome.verdicts.begin(), outcome.verdicts.end(), about_it);
+  };
+  EXPECT_FALSE(is_told(0.2e-3));
+  EXPECT_TRUE(is_told(0.09e-3));  // edges of 0.1 mm
+}
+
 TEST_F(StudyTest, ReportIsThere) {
   add({.speed = 20.0, .chipping = 0.2});
   studied();
