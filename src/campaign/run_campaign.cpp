@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <deque>
 #include <thread>
@@ -55,6 +56,12 @@ bool is_kill(const JobEnd& end) {
   return end.is_lost || end.exit_code == 128 + SIGKILL || end.exit_code == 128 + SIGTERM ||
          end.exit_code == 128 + SIGHUP;
 }
+
+/// What was done here when a run ended.
+struct Pace {
+  Clock::time_point time;
+  double effort = 0.0;
+};
 
 /// A campaign under way.
 class Session {
@@ -120,8 +127,8 @@ class Session {
     const std::string reason = reason_of(options_.folder, run, end);
     status_[end.run] = status_of(options_.folder, campaign_, run);
     if (status_[end.run].state == RunState::Done) {
-      ++done_here_;
       effort_here_ += effort_of(end.run);
+      paces_.push_back({Clock::now(), effort_here_});
     } else if (finds_disk_full(end, reason)) {
       stop_runs();  // all others would fail alike
     } else if (is_worth_a_try(end, reason, was_resumed)) {
@@ -181,7 +188,6 @@ class Session {
     const double share = running_ > 0 ? 1.0 - static_cast<double>(queued) / static_cast<double>(running_) : 0.0;
     return 0.5 * share * effort_in(RunState::Running);
   }
-  double effort_made(std::size_t queued) const { return effort_here_ + effort_half_done(queued); }
   double effort_left(std::size_t queued) const {
     return effort_in(RunState::Waiting) + effort_in(RunState::Running) - effort_half_done(queued);
   }
@@ -197,10 +203,20 @@ class Session {
     now.remark = engine.remark;
     now.running -= engine.queued;
     now.waiting += engine.queued;
-    if (done_here_ > 0)
-      now.seconds_left = std::chrono::duration<double>(Clock::now() - began_).count() * effort_left(engine.queued) /
-                         effort_made(engine.queued);
+    now.seconds_left = seconds_left(engine.queued);
     return now;
+  }
+
+  // By the pace of the last quarter of the runs: harder impacts often come last, and take longer than expected. 0 while
+  // none is done.
+  double seconds_left(std::size_t queued) const {
+    constexpr std::size_t fewest = 10;
+    const std::size_t done = paces_.size() - 1, last = std::min(done, std::max(fewest, done / 4));
+    if (done == 0) return 0.0;
+    const Pace& from = paces_[done - last];
+    const bool is_all = last == done;  // nothing was half done when it began
+    const double made = effort_here_ - from.effort + (is_all ? effort_half_done(queued) : 0.0);
+    return std::chrono::duration<double>(Clock::now() - from.time).count() * effort_left(queued) / made;
   }
 
   const CampaignConfig& campaign_;
@@ -212,9 +228,10 @@ class Session {
   std::vector<int> losses_;  // how often it was killed or lost
   ResultsTable table_;
   std::deque<std::size_t> waiting_{};
-  std::size_t running_ = 0, done_before_ = 0, done_here_ = 0;
+  std::size_t running_ = 0, done_before_ = 0;
   double effort_here_ = 0.0;  // of those done here
-  Clock::time_point began_ = Clock::now(), written_ = began_;
+  std::vector<Pace> paces_{{Clock::now(), 0.0}};
+  Clock::time_point written_ = Clock::now();
   bool is_changed_ = false, is_stopping_ = false;
   std::string disk_failure_{};  // why the campaign stops
 };
