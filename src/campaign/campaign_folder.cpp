@@ -59,7 +59,8 @@ RunStatus status_of(const CampaignFolder& folder, const CampaignConfig& campaign
         "{}: was run with another case: the campaign or its base has changed since; give another folder with --out",
         folder.run(run).string()));
   if (report_in(folder.run(run)).value("status", "") == "finished") status.state = RunState::Done;
-  status.can_resume = fs::exists(folder.run(run) / "checkpoint.h5");
+  for (const char* checkpoint : {"checkpoint.h5", "impact_1/checkpoint.h5"})  // the latter of repeated impacts
+    status.can_resume = status.can_resume || fs::exists(folder.run(run) / checkpoint);
   return status;
 }
 

@@ -38,6 +38,21 @@ TEST_F(KilledRuns, GoOnFromTheirCheckpoint) {
   expect_results_of_undisturbed_runs();
 }
 
+TEST_F(KilledRuns, OfRepeatedImpactsKeepTheImpactsThatHadEnded) {
+  write("study.campaign.toml",
+        "[campaign]\nbase = \"case.toml\"\n[set]\n\"output.frames\" = 0\n\"output.checkpoint_interval\" = 0.01\n"
+        "\"impact.repeat\" = 2\n[[axis]]\nkey = \"run.end_time\"\nvalues = [\"20 us\"]\n");
+  const fs::path impacts = folder / "c/runs/end_time_20us";
+  const Started started = start({"campaign", "study.campaign.toml", "--out", "c"});
+  ASSERT_TRUE(wait_for(impacts / "impact_2/checkpoint.h5", started));
+  const auto written = fs::last_write_time(impacts / "impact_1/report.json");
+  ASSERT_TRUE(kill_run("end_time_20us"));
+  ASSERT_EQ(wait(started).code, 0);
+  EXPECT_EQ(fs::last_write_time(impacts / "impact_1/report.json"), written);
+  ASSERT_EQ(run({"campaign", "study.campaign.toml", "--out", "undisturbed"}).code, 0);
+  EXPECT_EQ(content(impacts / "impacts.csv"), content(folder / "undisturbed/runs/end_time_20us/impacts.csv"));
+}
+
 TEST_F(KilledRuns, FailWhenItHappensAgainAndAgain) {
   const Started started = start({"campaign", "study.campaign.toml", "--out", "c", "--jobs", "2"});
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(kill_run("seed_2"));
