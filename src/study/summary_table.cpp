@@ -12,30 +12,33 @@
 namespace knap {
 namespace {
 
-Measure of_column(const std::string& name, const std::string& unit, const std::string& column) {
-  return {name, unit, [column](const StudyRun& run) { return run.number(column); }};
+constexpr Interval share{0.0, 1.0}, not_negative{0.0, any_value.high};
+
+Measure of_column(const std::string& name, const std::string& unit, const std::string& column, Interval range) {
+  return {name, unit, [column](const StudyRun& run) { return run.number(column); }, range};
 }
 
 std::vector<Measure> all_measures() {
-  std::vector<Measure> list{of_column("chipping_ratio", "-", "breakage.chipping_ratio"),
-                            {"breakage_ratio", "-", [](const StudyRun& run) { return run.breakage_ratio; }}};
+  std::vector<Measure> list{of_column("chipping_ratio", "-", "breakage.chipping_ratio", share),
+                            {"breakage_ratio", "-", [](const StudyRun& run) { return run.breakage_ratio; }, share}};
   for (const int n : fineness_divisors)
-    list.push_back(of_column(fmt::format("t{}", n), "-", fmt::format("breakage.t{}", n)));
+    list.push_back(of_column(fmt::format("t{}", n), "-", fmt::format("breakage.t{}", n), share));
   const std::string pieces = "fragments.by_damage_label.";
-  for (const char* name : {"largest_mass_fraction", "second_mass_fraction", "unresolved_mass_fraction", "count",
-                           "count_above_1pct", "count_above_0p1pct"})
-    list.push_back(of_column(name, "-", pieces + name));
-  list.push_back({"sphericity", "-", [](const StudyRun& run) { return run.shape.sphericity; }});
-  list.push_back({"elongation", "-", [](const StudyRun& run) { return run.shape.elongation; }});
-  list.push_back({"flatness", "-", [](const StudyRun& run) { return run.shape.flatness; }});
-  list.push_back({"convexity", "-", [](const StudyRun& run) { return run.shape.convexity; }});
-  list.push_back(of_column("restitution_normal", "-", "rebound.restitution_normal"));
-  list.push_back(of_column("restitution_tangential", "-", "rebound.restitution_tangential"));
-  list.push_back(of_column("cracked_area", "m2", "cracks.area"));
+  for (const char* name : {"largest_mass_fraction", "second_mass_fraction", "unresolved_mass_fraction"})
+    list.push_back(of_column(name, "-", pieces + name, share));
+  for (const char* name : {"count", "count_above_1pct", "count_above_0p1pct"})
+    list.push_back(of_column(name, "-", pieces + name, not_negative));
+  list.push_back({"sphericity", "-", [](const StudyRun& run) { return run.shape.sphericity; }, share});
+  list.push_back({"elongation", "-", [](const StudyRun& run) { return run.shape.elongation; }, share});
+  list.push_back({"flatness", "-", [](const StudyRun& run) { return run.shape.flatness; }, share});
+  list.push_back({"convexity", "-", [](const StudyRun& run) { return run.shape.convexity; }, share});
+  list.push_back(of_column("restitution_normal", "-", "rebound.restitution_normal", any_value));
+  list.push_back(of_column("restitution_tangential", "-", "rebound.restitution_tangential", any_value));
+  list.push_back(of_column("cracked_area", "m2", "cracks.area", not_negative));
   for (const char* term : {"kinetic", "strain", "cohesive_stored", "cohesive_dissipated", "closure_impact",
                            "crack_friction", "contact_dissipated", "tool_friction", "tool_impact", "viscous"})
-    list.push_back(of_column(fmt::format("energy_{}", term), "-", fmt::format("energy.{}", term)));
-  list.push_back(of_column("energy_closure_error", "-", "energy.closure_error"));
+    list.push_back(of_column(fmt::format("energy_{}", term), "-", fmt::format("energy.{}", term), any_value));
+  list.push_back(of_column("energy_closure_error", "-", "energy.closure_error", not_negative));
   return list;
 }
 
@@ -69,12 +72,13 @@ Spread spread_of(const Study& study, const Condition& condition, const Measure& 
     for (const double value : of_mesh) squares += (value - means.back()) * (value - means.back());
     freedom += static_cast<double>(of_mesh.size() - 1);
   }
+  const Interval interval = mean_interval(values);
   return {.count = values.size(),
           .mean = mean(values),
           .deviation = standard_deviation(values),
           .between_meshes = standard_deviation(means),
           .between_seeds = std::sqrt(squares / freedom),
-          .interval = mean_interval(values)};
+          .interval = {std::max(interval.low, measure.range.low), std::min(interval.high, measure.range.high)}};
 }
 
 void add_summary(Findings& findings, const Study& study) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -7,11 +8,14 @@
 
 namespace knap {
 
+inline constexpr Interval any_value{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+
 /// A number of a run that is told by condition.
 struct Measure {
   std::string name;
   std::string unit;
   std::function<double(const StudyRun&)> value;  ///< NaN = not resolved
+  Interval range = any_value;                    ///< of what it can be
 };
 /// Chipping and breakage ratio, t_n, pieces, shapes, energy split.
 const std::vector<Measure>& measures();
@@ -25,7 +29,7 @@ struct Spread {
   double deviation = 0.0;       ///< of runs
   double between_meshes = 0.0;  ///< deviation of the means of meshes; NaN for one mesh
   double between_seeds = 0.0;   ///< root mean square deviation of seeds about their mesh's mean
-  Interval interval{};          ///< of the mean, 95 %, bootstrap
+  Interval interval{};          ///< of the mean, 95 %, within what the measure can be
 };
 Spread spread_of(const Study& study, const Condition& condition, const Measure& measure);
 

@@ -16,6 +16,7 @@
 #include "core/errors.hpp"
 #include "io/csv_line.hpp"
 #include "study/study_runs.hpp"
+#include "study/summary_table.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace knap {
@@ -336,6 +337,22 @@ TEST_F(StudyTest, SpreadsAreOfMeshesAndOfSeeds) {
     EXPECT_NEAR(std::stod(cells[12]), 0.17 + half, 1e-9);
   }
   EXPECT_TRUE(found);
+}
+
+TEST_F(StudyTest, IntervalsStayWithinWhatAShareCanBe) {
+  for (const double chipping : {0.0, 0.01, 0.2}) add({.speed = 20.0, .chipping = chipping});
+  for (const double chipping : {0.99, 0.7, 0.98}) add({.speed = 30.0, .chipping = chipping});
+  write();
+  const std::array folders{campaign()};
+  const Study study = read_study(folders, 0.0);
+  const std::vector<Condition> list = conditions(study);
+  ASSERT_EQ(list.size(), 2U);
+  EXPECT_EQ(spread_of(study, list[0], measure("chipping_ratio")).interval.low, 0.0);
+  EXPECT_EQ(spread_of(study, list[1], measure("chipping_ratio")).interval.high, 1.0);
+  add({.speed = 40.0, .chipping = 0.5});  // one run has no interval
+  write();
+  const Study more = read_study(folders, 0.0);
+  EXPECT_TRUE(std::isnan(spread_of(more, conditions(more)[2], measure("chipping_ratio")).interval.low));
 }
 
 TEST_F(StudyTest, TheSieveDecidesTheBreakageRatio) {
