@@ -20,10 +20,11 @@ bool has_nothing_else_to_move(const RunConfig& config, std::size_t) {
 std::vector<Key> impact_keys() {
   using C = ImpactConfig;
   constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.impact; };
-  const Condition nothing_else_moves{"there is no [[tool]] and a particle has no velocity", has_nothing_else_to_move};
-  const Condition repeated{"repeat > 1", [](const RunConfig& c, std::size_t) { return c.impact.repeat > 1; }};
+  const KeyCondition nothing_else_moves{"there is no [[tool]] and a particle has no velocity",
+                                        has_nothing_else_to_move};
+  const KeyCondition repeated{"repeat > 1", [](const RunConfig& c, std::size_t) { return c.impact.repeat > 1; }};
   const std::vector<std::string> orientations{"random", "kept"};
-  const Condition walled{"there is a wall", [](const RunConfig& c, std::size_t) { return has_wall(c); }};
+  const KeyCondition walled{"there is a wall", [](const RunConfig& c, std::size_t) { return has_wall(c); }};
   return {
       quantity("speed", Speed, "[1 mm/s, 5 km/s]", required_when(nothing_else_moves), field(in, &C::speed),
                "Speed of the particle when it meets the wall; of all particles without a velocity of their own."),
@@ -48,7 +49,7 @@ std::vector<Key> impact_keys() {
 std::vector<Key> quasistatic_keys() {
   using C = QuasistaticConfig;
   constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.quasistatic; };
-  const Condition enabled{"enabled = true", [](const RunConfig& c, std::size_t) { return c.quasistatic.enabled; }};
+  const KeyCondition enabled{"enabled = true", [](const RunConfig& c, std::size_t) { return c.quasistatic.enabled; }};
   return {
       word("enabled", KeyType::Switch, {}, value("false"), field(in, &C::enabled),
            "Whether the run starts at the onset of fracture, the elastic compression before it solved on equilibria."),
@@ -64,8 +65,8 @@ std::vector<Key> quasistatic_keys() {
 std::vector<Key> contact_keys() {
   using C = ContactConfig;
   constexpr auto in = [](auto& config, std::size_t) -> auto& { return config.contact; };
-  const Condition rigid{"rigid_fragments = true",
-                        [](const RunConfig& c, std::size_t) { return c.contact.rigid_fragments; }};
+  const KeyCondition rigid{"rigid_fragments = true",
+                           [](const RunConfig& c, std::size_t) { return c.contact.rigid_fragments; }};
   return {
       word(
           "rigid_fragments", KeyType::Switch, {}, value("false"), field(in, &C::rigid_fragments),

@@ -60,7 +60,7 @@ Access choice(Place place, Enum Section::*member, const std::vector<std::string>
 Range range(std::string_view text, Quantity quantity);
 
 inline Fallback required() { return {Fallback::Kind::Required, "required", {}}; }
-inline Fallback required_when(Condition when) {
+inline Fallback required_when(KeyCondition when) {
   std::string text = "required when " + when.text;
   return {Fallback::Kind::RequiredWhen, std::move(text), std::move(when)};
 }
@@ -109,7 +109,7 @@ inline Key word(std::string name, KeyType type, std::vector<std::string> choices
           .set = std::move(access.set)};
 }
 
-inline Key only_when(Condition condition, Key key) {
+inline Key only_when(KeyCondition condition, Key key) {
   key.applies = std::move(condition);
   return key;
 }

@@ -8,11 +8,11 @@ namespace {
 
 using enum Quantity;
 
-Condition shape_is(ParticleShape shape, const std::string& word) {
+KeyCondition shape_is(ParticleShape shape, const std::string& word) {
   return {"shape = \"" + word + "\"",
           [=](const RunConfig& config, std::size_t i) { return config.particles[i].shape == shape; }};
 }
-Condition shape_is_meshed_here() {
+KeyCondition shape_is_meshed_here() {
   return {"shape is not \"mesh_file\"",
           [](const RunConfig& config, std::size_t i) { return config.particles[i].shape != ParticleShape::MeshFile; }};
 }
@@ -32,9 +32,9 @@ Access fracture_energy_access() {
 std::vector<Key> weibull_keys() {
   using C = FractureConfig;
   constexpr auto in = fracture_of;
-  const Condition scattered{"weibull_modulus > 0", [](const RunConfig& c, std::size_t i) {
-                              return c.particles[i].fracture.weibull_modulus > 0.0;
-                            }};
+  const KeyCondition scattered{"weibull_modulus > 0", [](const RunConfig& c, std::size_t i) {
+                                 return c.particles[i].fracture.weibull_modulus > 0.0;
+                               }};
   return {
       quantity("weibull_modulus", Ratio, "[0, 1000]", value("0"), field(in, &C::weibull_modulus),
                "Weibull modulus of the scatter of strength between facets; 0 is uniform strength."),
@@ -51,7 +51,7 @@ std::vector<Key> particle_keys() {
   using C = ParticleConfig;
   constexpr auto in = [](auto& config, std::size_t i) -> auto& { return config.particles[i]; };
   const std::vector<std::string> shapes{"sphere", "ellipsoid", "box", "mesh_file"};
-  const Condition from_file = shape_is(ParticleShape::MeshFile, "mesh_file");
+  const KeyCondition from_file = shape_is(ParticleShape::MeshFile, "mesh_file");
   return {
       word("name", KeyType::Name, {}, derived("particle1, particle2, ..."), field(in, &C::name),
            "Name of the particle, of letters, digits, - and _."),
@@ -111,9 +111,9 @@ std::vector<Key> mesh_keys() {
 std::vector<Key> material_keys() {
   using C = MaterialConfig;
   constexpr auto in = [](auto& config, std::size_t i) -> auto& { return config.particles[i].material; };
-  const Condition viscous{"viscous_ratio > 0", [](const RunConfig& c, std::size_t i) {
-                            return c.particles[i].material.viscous_ratio > 0.0;
-                          }};
+  const KeyCondition viscous{"viscous_ratio > 0", [](const RunConfig& c, std::size_t i) {
+                               return c.particles[i].material.viscous_ratio > 0.0;
+                             }};
   return {
       word("preset", KeyType::Choice, preset_names(), absent("none"), field(in, &C::preset),
            "Named material that fills the keys of [material] and [fracture] that are not given."),
@@ -134,12 +134,12 @@ std::vector<Key> fracture_keys() {
   constexpr auto in = fracture_of;
   const std::vector<std::string> insertions{"none", "extrinsic", "intrinsic"};
   const std::vector<std::string> frictions{"keeps_confined_strength", "blended"};
-  const Condition breakable{"insertion is not \"none\"", [](const RunConfig& c, std::size_t i) {
-                              return c.particles[i].fracture.insertion != Insertion::None;
-                            }};
-  const Condition intrinsic{"insertion = \"intrinsic\"", [](const RunConfig& c, std::size_t i) {
-                              return c.particles[i].fracture.insertion == Insertion::Intrinsic;
-                            }};
+  const KeyCondition breakable{"insertion is not \"none\"", [](const RunConfig& c, std::size_t i) {
+                                 return c.particles[i].fracture.insertion != Insertion::None;
+                               }};
+  const KeyCondition intrinsic{"insertion = \"intrinsic\"", [](const RunConfig& c, std::size_t i) {
+                                 return c.particles[i].fracture.insertion == Insertion::Intrinsic;
+                               }};
   std::vector<Key> keys{
       word("insertion", KeyType::Choice, insertions, value("extrinsic"), choice(in, &C::insertion, insertions),
            "How cracks come: none (unbreakable), extrinsic (cohesive elements where the stress reaches the "

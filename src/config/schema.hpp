@@ -48,7 +48,7 @@ struct Range {
 };
 
 /// When a key has a meaning, or must be given.
-struct Condition {
+struct KeyCondition {
   std::string text;  ///< "shape = \"sphere\""; "" = always
   std::function<bool(const RunConfig&, std::size_t)> holds;
 };
@@ -64,7 +64,7 @@ struct Fallback {
   };
   Kind kind = Kind::Required;
   std::string text;  ///< the value, or a few words on where it comes from
-  Condition when{};
+  KeyCondition when{};
 };
 
 struct Key {
@@ -74,7 +74,7 @@ struct Key {
   std::vector<std::string> choices{};
   Range range{};
   Fallback fallback{};
-  Condition applies{};
+  KeyCondition applies{};
   std::string description{};
   std::function<Value(const RunConfig&, std::size_t)> get{};  ///< of that element; 0 for the case
   std::function<void(RunConfig&, std::size_t, const Value&)> set{};

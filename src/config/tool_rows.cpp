@@ -20,8 +20,8 @@ std::string alternatives(const std::vector<std::string>& words) {
 }
 
 template <class Enum>
-Condition one_of(const char* key, Enum C::*member, const std::vector<Enum>& allowed,
-                 const std::vector<std::string>& words) {
+KeyCondition one_of(const char* key, Enum C::*member, const std::vector<Enum>& allowed,
+                    const std::vector<std::string>& words) {
   std::vector<std::string> shown;
   for (const Enum value : allowed) shown.push_back(words.at(static_cast<std::size_t>(value)));
   return {std::string(key) + " = " + alternatives(shown), [=](const RunConfig& config, std::size_t i) {
@@ -29,12 +29,12 @@ Condition one_of(const char* key, Enum C::*member, const std::vector<Enum>& allo
           }};
 }
 
-Condition type_is(const std::vector<ToolKind>& allowed) {
+KeyCondition type_is(const std::vector<ToolKind>& allowed) {
   static const std::vector<std::string> words{"plane", "platen", "sphere", "cylinder", "stl"};
   return one_of("type", &C::type, allowed, words);
 }
 
-Condition motion_is(const std::vector<MotionKind>& allowed) {
+KeyCondition motion_is(const std::vector<MotionKind>& allowed) {
   static const std::vector<std::string> words{"rest", "velocity", "ramp", "rotation", "free"};
   return one_of("motion", &C::motion, allowed, words);
 }
@@ -69,8 +69,8 @@ std::vector<Key> geometry_keys() {
 
 std::vector<Key> motion_keys() {
   using enum MotionKind;
-  const Condition rotates = motion_is({Rotation});
-  const Condition is_driven{"motion = \"velocity\" or \"ramp\"", motion_is({MotionKind::Velocity, Ramp}).holds};
+  const KeyCondition rotates = motion_is({Rotation});
+  const KeyCondition is_driven{"motion = \"velocity\" or \"ramp\"", motion_is({MotionKind::Velocity, Ramp}).holds};
   return {
       only_when(motion_is({MotionKind::Velocity, Ramp, Free}),
                 vector("velocity", Quantity::Speed, "[-5 km/s, 5 km/s]", required_when(is_driven),

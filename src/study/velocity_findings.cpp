@@ -3,6 +3,7 @@
 #include "study/breakage_curves.hpp"
 #include "study/collapse_findings.hpp"
 #include "study/condition_plots.hpp"
+#include "study/equal_loss_findings.hpp"
 #include "study/tangential_findings.hpp"
 
 namespace knap {
@@ -24,6 +25,7 @@ void add_velocity_findings(Findings& findings, const Study& study, const std::ve
     if (angles_of(series).size() > 1) {
       if (series.conditions.front().friction > 0.0) {
         add_collapse(findings, study, series, suffix, collapse_samples, json);
+        add_equal_loss(findings, study, series, suffix, json);
         add_tangential(findings, study, series, normal_speeds, suffix, json);
       } else {
         add_frictionless(findings, study, series, json);

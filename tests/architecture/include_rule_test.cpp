@@ -3,15 +3,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <regex>
 #include <set>
 #include <string>
 #include <vector>
+
+#include "tests/architecture/source_tree.hpp"
 
 namespace knap {
 namespace {
@@ -95,34 +95,8 @@ std::vector<std::string> complaints(const std::string& path, const std::string& 
   return found;
 }
 
-/// Paths, relative to the source root and sorted, of the files under src, meshing and solvers that `wanted` accepts.
-template <class Wanted>
-std::vector<std::string> source_files(Wanted&& wanted) {
-  const fs::path root = KNAP_SOURCE_DIR;
-  std::vector<std::string> files;
-  for (const char* folder : {"src", "meshing", "solvers"}) {
-    for (const auto& entry : fs::recursive_directory_iterator(root / folder)) {
-      if (entry.is_regular_file() && wanted(entry.path())) files.push_back(fs::relative(entry.path(), root).string());
-    }
-  }
-  std::sort(files.begin(), files.end());
-  return files;
-}
-
-std::vector<std::string> lines_of(const std::string& path) {
-  std::ifstream file(fs::path(KNAP_SOURCE_DIR) / path);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) lines.push_back(line);
-  return lines;
-}
-
-bool is_cpp(const fs::path& path) {
-  static const std::set<std::string> endings{".hpp", ".cpp", ".h", ".cc", ".cxx", ".ipp", ".inl"};
-  return endings.contains(path.extension().string());
-}
-
 TEST(IncludeRule, DependenciesPointDownAndThirdPartiesStayFenced) {
-  const auto files = source_files(is_cpp);
+  const auto files = source_files({"src", "meshing", "solvers"}, is_cpp);
   ASSERT_GT(files.size(), 10u);
   for (const std::string& file : files) {
     const auto lines = lines_of(file);
@@ -136,7 +110,8 @@ TEST(IncludeRule, DependenciesPointDownAndThirdPartiesStayFenced) {
 
 TEST(IncludeRule, LinkedModulesPointDown) {
   const std::regex linked{R"(knap::(\w+))"};
-  for (const std::string& file : source_files([](const fs::path& p) { return p.filename() == "CMakeLists.txt"; })) {
+  const auto is_list = [](const fs::path& p) { return p.filename() == "CMakeLists.txt"; };
+  for (const std::string& file : source_files({"src", "meshing", "solvers"}, is_list)) {
     const std::string own = module_of_file(file);
     if (own.empty()) continue;  // the list of modules in src and solvers
     for (const std::string& line : lines_of(file)) {

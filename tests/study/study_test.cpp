@@ -132,15 +132,31 @@ TEST_F(StudyTest, FindsTheEquivalentVelocityThatTheRunsFollow) {
       EXPECT_LT(threshold["interval"][0].get<double>(), threshold["speed"].get<double>());
     }
   EXPECT_EQ(checked, 3);
+  // Speed by speed as well: as much is lost straight on at v_eq.
+  const auto& equal_loss = json["velocity"][0]["equal_loss"];
+  EXPECT_GT(equal_loss["conditions"].size(), 20U);
+  for (const auto& one : equal_loss["conditions"])
+    if (one["loss"] > 0.1) {  // there the scatter of 0.01 moves a speed by 0.01/(6 0.1) at most, on each side
+      EXPECT_NEAR(one["ratio"].get<double>(),
+                  std::sqrt(1.0 + std::pow(0.8 * std::cos(one["angle_deg"].get<double>() * degree), 2)), 0.05)
+          << one;
+    }
+  for (const auto& band : equal_loss["bands"]) EXPECT_NEAR(band["a_mu_median"].get<double>(), 0.8, 0.1) << band;
+  EXPECT_EQ(equal_loss["bands"].size(), 2U);
 }
 
 TEST_F(StudyTest, SaysWhereTheNormalComponentIsEnough) {
   add_oblique(0.0);
-  const auto found = studied()["velocity"][0]["equivalent_velocity"]["chipping_ratio"];
+  const auto json = studied()["velocity"][0];
+  const auto& found = json["equivalent_velocity"]["chipping_ratio"];
   // At 45 deg v_eq is then less than 1 % above v sin th.
   EXPECT_LT(found["model"]["a_mu"].get<double>(), 0.2);
   EXPECT_LT(found["model"]["a_mu_interval"][0].get<double>(), 0.2);
   EXPECT_THAT(found["verdict"].get<std::string>(), testing::Not(HasSubstr("velocity beats")));
+  for (const auto& one : json["equal_loss"]["conditions"])
+    if (one["loss"] > 0.1) {
+      EXPECT_NEAR(one["ratio"].get<double>(), 1.0, 0.05) << one;
+    }
 }
 
 TEST_F(StudyTest, ClaimsNothingWithoutRepeats) {

@@ -21,7 +21,7 @@ struct Measured {
 Measured impact_of_tets(double group, double elements) {
   const SphereImpact impact{.group = group, .elements = elements};
   Simulation s = make_impact(impact);
-  const HertzImpact hertz =
+  const HertzOutcome hertz =
       hertz_impact(s.reference.start.mass, impact.speed(), impact.reduced_modulus(), impact.radius());
   ForceHistory history = follow_force(s, 1.25 * hertz.duration, 0.005 * hertz.duration);
   const double largest = *std::max_element(history.force.begin(), history.force.end());

@@ -27,7 +27,7 @@ void show_impact_speeds(Evidence& evidence) {
   const std::vector<double> speeds = evidence.is_short()
                                          ? std::vector<double>{5.0, 12.0}
                                          : std::vector<double>{5, 8, 10, 12, 14, 16, 18, 20, 22, 25, 30, 40, 60};
-  Study study(evidence.folder() / "study.csv", {"speed [m/s]"}, evidence.keeps_runs());
+  GranuleStudy study(evidence.folder() / "study.csv", {"speed [m/s]"}, evidence.keeps_runs());
   std::vector<double> restitution, kinetic, chipping, largest, second;
   for (const double speed : speeds) {
     const GranuleOutcome outcome = study.at_parameters({speed}, [&] { return granule_case(zeolite(speed)); });

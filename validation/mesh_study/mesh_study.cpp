@@ -46,7 +46,7 @@ struct Ensemble {
   std::vector<double> critical_speed, dissipated, debris, largest;
 };
 
-Ensemble ensemble(Study& study, std::size_t v) {
+Ensemble ensemble(GranuleStudy& study, std::size_t v) {
   const Variant& variant = variants()[v];
   Ensemble all;
   for (int seed = 0; seed < seeds; ++seed) {
@@ -77,7 +77,7 @@ Ensemble ensemble(Study& study, std::size_t v) {
 }  // namespace
 
 void show_mesh_study(Evidence& evidence) {
-  Study study(evidence.folder() / "study.csv", {"variant", "speed [m/s]", "seed"}, evidence.keeps_runs());
+  GranuleStudy study(evidence.folder() / "study.csv", {"variant", "speed [m/s]", "seed"}, evidence.keeps_runs());
   std::vector<Ensemble> all;
   std::vector<Column> table{{"variant", {}},
                             {"critical speed [m/s]", {}},

@@ -68,7 +68,7 @@ double spin_about_y(const NodalState& nodes) {
 Rebound rebound(SphereImpact impact, double psi1) {
   impact.tangential_speed = impact.friction * tangent_over_friction(impact.poisson_ratio, psi1);
   Simulation s = make_impact(impact);
-  const HertzImpact hertz =
+  const HertzOutcome hertz =
       hertz_impact(s.reference.start.mass, impact.speed(), impact.reduced_modulus(), impact.radius());
   while (s.clock.time() < 1.1 * hertz.duration) checked_step(s);
   const Vec3 v = momentum(s.nodes).velocity();

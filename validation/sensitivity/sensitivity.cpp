@@ -77,7 +77,7 @@ GranuleCase alumina(double speed, int seed) {
           .overrides = {"impact.wall_friction=0.37"}};
 }
 
-GranuleOutcome outcome(Study& study, std::size_t p, int direction, double speed, int seed) {
+GranuleOutcome outcome(GranuleStudy& study, std::size_t p, int direction, double speed, int seed) {
   const Parameter& parameter = parameters()[p];
   const double value = parameter.base * std::pow(parameter.factor, direction);
   const auto make_case = [&] {
@@ -99,7 +99,7 @@ struct Elasticity {
   double value = 0.0, error = 0.0, base = 0.0;
   double change() const { return value * base; }  // dq/d ln p
 };
-Elasticity elasticity(Study& study, std::size_t p, double speed, double GranuleOutcome::*field) {
+Elasticity elasticity(GranuleStudy& study, std::size_t p, double speed, double GranuleOutcome::*field) {
   std::vector<double> slopes, base;
   for (int seed = 0; seed < seeds; ++seed) {
     const double up = outcome(study, p, 1, speed, seed).*field, down = outcome(study, p, -1, speed, seed).*field;
@@ -131,8 +131,8 @@ void judge(Evidence& evidence, const Parameter& parameter, const std::vector<Ela
 }  // namespace
 
 void show_sensitivity(Evidence& evidence) {
-  Study study(evidence.folder() / "study.csv", {"parameter", "direction", "speed [m/s]", "mesh seed"},
-              evidence.keeps_runs());
+  GranuleStudy study(evidence.folder() / "study.csv", {"parameter", "direction", "speed [m/s]", "mesh seed"},
+                     evidence.keeps_runs());
   std::vector<Column> table{{"parameter", {}}};
   std::string text = "| parameter", rule = "\n|---", base = "| at the base";
   PlotInput plot{.title = "Alumina at 23 m/s: what the parameters change",

@@ -14,7 +14,7 @@ namespace {
 constexpr double characteristic_length = 323.5e-6;  // of the zeolite [m]
 
 // Lowest speed [m/s] at which half of the incident energy does not come back as rebound, in steps of 4 %.
-double critical_speed(Study& study, double ratio) {
+double critical_speed(GranuleStudy& study, double ratio) {
   const double diameter = ratio * characteristic_length;
   const double size = std::min(diameter / 12.0, 0.35 * characteristic_length);
   double low = 4.0, high = ratio < 0.5 ? 256.0 : 64.0;
@@ -37,7 +37,7 @@ double critical_speed(Study& study, double ratio) {
 
 void show_size_effect(Evidence& evidence) {
   constexpr std::array<double, 7> ratios{0.125, 0.25, 0.5, 1.0, 2.0, 4.0, 7.0};
-  Study study(evidence.folder() / "study.csv", {"d over l_ch [-]", "speed [m/s]"}, evidence.keeps_runs());
+  GranuleStudy study(evidence.folder() / "study.csv", {"d over l_ch [-]", "speed [m/s]"}, evidence.keeps_runs());
   std::vector<double> x, speeds, exponents;
   for (const double ratio : ratios) {
     x.push_back(ratio);

@@ -55,7 +55,7 @@ RunConfig case_of(const CrushingStudy& study, const Kind& kind, int seed) {
 // All orientations at a speed on a mesh.
 using Ensemble = std::vector<GranuleOutcome>;
 
-Ensemble ensemble(Study& runs, const CrushingStudy& study, const Kind& kind) {
+Ensemble ensemble(GranuleStudy& runs, const CrushingStudy& study, const Kind& kind) {
   Ensemble all;
   for (int seed = 0; seed < orientations; ++seed)
     all.push_back(runs.at_parameters({1.0 * kind.resolution, kind.speed, 1.0 * seed, kind.mode_ii_ratio},
@@ -104,8 +104,8 @@ double equalising_ratio(int resolution) {
 }
 
 // The restitutions go to a series each.
-void compare_equalised(Evidence& evidence, Study& runs, const CrushingStudy& study, const Ensemble& fine, double speed,
-                       std::span<PlotSeries> series) {
+void compare_equalised(Evidence& evidence, GranuleStudy& runs, const CrushingStudy& study, const Ensemble& fine,
+                       double speed, std::span<PlotSeries> series) {
   for (std::size_t i = 0; i < equalised_resolutions.size(); ++i) {
     const int resolution = equalised_resolutions[i];
     const double ratio = equalising_ratio(resolution);
@@ -125,9 +125,9 @@ void compare_equalised(Evidence& evidence, Study& runs, const CrushingStudy& stu
 }  // namespace
 
 void show_contact_crushing(Evidence& evidence, const CrushingStudy& study) {
-  Study runs(evidence.folder() / "study.csv",
-             {"elements in the resolved length", "speed [m/s]", "mesh seed", "mode II ratio [-]"},
-             evidence.keeps_runs());
+  GranuleStudy runs(evidence.folder() / "study.csv",
+                    {"elements in the resolved length", "speed [m/s]", "mesh seed", "mode II ratio [-]"},
+                    evidence.keeps_runs());
   std::vector<Column> table{{"speed [m/s]", {}}, {"elements", {}}, {"runs", {}}, {"tets", {}}};
   for (const Quantity& quantity : quantities)
     for (const char* what : {"", " spread"}) table.push_back({fmt::format("{}{} [-]", quantity.name, what), {}});

@@ -120,14 +120,15 @@ seed = {}
   return config_from_text(text, "validation.toml", granule.overrides);
 }
 
-Study::Study(std::filesystem::path file, std::vector<std::string> parameters, bool keeps)
+GranuleStudy::GranuleStudy(std::filesystem::path file, std::vector<std::string> parameters, bool keeps)
     : num_parameters_(parameters.size()),
       rows_(keeps ? rows_of(file, with_granule_columns(parameters)) : std::vector<std::vector<double>>{}),
       num_kept_(rows_.size()),
       table_(open_table(file, with_granule_columns(parameters), rows_.size())) {}
 
-GranuleOutcome Study::at_parameters(const std::vector<double>& parameters, const std::function<RunConfig()>& make_case,
-                                    const std::function<void(Simulation&)>& before_run) {
+GranuleOutcome GranuleStudy::at_parameters(const std::vector<double>& parameters,
+                                           const std::function<RunConfig()>& make_case,
+                                           const std::function<void(Simulation&)>& before_run) {
   const auto split = static_cast<std::ptrdiff_t>(num_parameters_);
   for (const auto& row : rows_)
     if (std::equal(parameters.begin(), parameters.end(), row.begin()))
@@ -143,7 +144,7 @@ GranuleOutcome Study::at_parameters(const std::vector<double>& parameters, const
   return outcome;
 }
 
-void Study::tell_kept(Evidence& evidence) const {
+void GranuleStudy::tell_kept(Evidence& evidence) const {
   if (num_kept_ > 0)
     evidence.tell("runs kept from an earlier session", static_cast<double>(num_kept_), "validate --keep");
 }

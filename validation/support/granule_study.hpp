@@ -50,10 +50,10 @@ struct GranuleCase {
 RunConfig granule_case(const GranuleCase& granule);
 
 /// The runs of a study, one row each in a CSV file that grows as they end: what was killed goes on where it was.
-class Study {
+class GranuleStudy {
  public:
   /// Keeps the rows of an earlier session if `keeps`, else begins anew.
-  Study(std::filesystem::path file, std::vector<std::string> parameters, bool keeps);
+  GranuleStudy(std::filesystem::path file, std::vector<std::string> parameters, bool keeps);
   /// The outcome at these parameters: from the file, or by running.
   GranuleOutcome at_parameters(const std::vector<double>& parameters, const std::function<RunConfig()>& make_case,
                                const std::function<void(Simulation&)>& before_run = {});

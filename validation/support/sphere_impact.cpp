@@ -7,8 +7,8 @@
 
 namespace knap {
 
-HertzImpact hertz_impact(double mass, double speed, double reduced_modulus, double radius) {
-  HertzImpact impact;
+HertzOutcome hertz_impact(double mass, double speed, double reduced_modulus, double radius) {
+  HertzOutcome impact;
   impact.approach = std::pow(15.0 * mass * speed * speed / (16.0 * reduced_modulus * std::sqrt(radius)), 0.4);
   impact.force = 4.0 / 3.0 * reduced_modulus * std::sqrt(radius) * std::pow(impact.approach, 1.5);
   impact.duration = 2.9433 * impact.approach / speed;

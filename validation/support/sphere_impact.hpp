@@ -5,14 +5,14 @@
 namespace knap {
 
 /// Hertz's impact on a rigid wall; lengths in m, forces in N, times in s.
-struct HertzImpact {
+struct HertzOutcome {
   double approach = 0.0;  ///< largest
   double force = 0.0;     ///< largest
   double duration = 0.0;
 };
 
 /// From mass [kg], speed [m/s], E/(1 - nu^2) [Pa] and radius [m].
-HertzImpact hertz_impact(double mass, double speed, double reduced_modulus, double radius);
+HertzOutcome hertz_impact(double mass, double speed, double reduced_modulus, double radius);
 /// Its force over the largest, from the first touch on, at times over the duration.
 std::vector<double> hertz_force(const std::vector<double>& times);
 
