@@ -61,26 +61,36 @@ struct Part {
   std::vector<Chipping> runs{};
 };
 
-// "Above the threshold" can be read in two ways, and the exponent depends on it: what mostly chips, and what loses
-// between a hundredth and a quarter on average.
+// "Chipping above the threshold" can be read in several ways, and the exponent depends on it: all runs at speeds that
+// mostly chip, or that lose between a hundredth and a quarter on average; or the chipped runs alone, without those of
+// the same speed that split, where they lose a hundredth.
 std::vector<Part> parts_of(const Study& study, const Series& series) {
   constexpr double threshold = 0.01, largest_chipping = 0.25;
   const double steepest = angles_of(series).back();
   const std::string straight_name = fmt::format("speed at {:.3g}°", steepest / degree);
   Part chipped{straight_name, "most runs chipped"}, above{straight_name, "mean loss 1 to 25 %"};
-  Part normal{"normal velocity, all angles", "most runs chipped"};
+  const std::string alone = "chipped runs alone, from 1 %";
+  Part chips{straight_name, alone}, normal{"normal velocity, all angles", alone};
   for (const Condition& condition : series.conditions) {
     const bool is_chipped = class_of(study, condition) == "chipped";
     const double loss = mean_of(study, condition.runs, "chipping_ratio");
     const bool is_above = loss >= threshold && loss <= largest_chipping;
-    for (const double ratio : values_of(study, condition, [](const StudyRun& run) { return run.chipping_ratio(); })) {
+    std::vector<double> chip_losses;
+    for (const std::size_t i : condition.runs) {
+      const StudyRun& run = study.runs[i];
+      const double ratio = run.chipping_ratio();
       if (!std::isfinite(ratio)) continue;
       if (condition.angle == steepest && is_chipped) chipped.runs.push_back({condition.speed, ratio});
       if (condition.angle == steepest && is_above) above.runs.push_back({condition.speed, ratio});
-      if (is_chipped) normal.runs.push_back({normal_speed(condition.speed, condition.angle), ratio});
+      if (run.breakage_class == "chipped") chip_losses.push_back(ratio);
+    }
+    if (chip_losses.empty() || mean(chip_losses) < threshold) continue;
+    for (const double ratio : chip_losses) {
+      if (condition.angle == steepest) chips.runs.push_back({condition.speed, ratio});
+      normal.runs.push_back({normal_speed(condition.speed, condition.angle), ratio});
     }
   }
-  std::vector<Part> parts{chipped, above};
+  std::vector<Part> parts{chipped, above, chips};
   if (angles_of(series).size() > 1) parts.push_back(normal);
   return parts;
 }
@@ -131,8 +141,10 @@ void add_laws(Findings& findings, const Study& study, const Series& series, cons
   PageSection section{.title = titled("Chipping law", series)};
   section.paragraphs.push_back(
       "Chipping ratio = C vⁿ, by the logarithms of the means at each speed: of the speeds at which most runs are "
-      "chipped (one piece holds 75 %), and of those that lose 1 to 25 % on average. The interval is 95 %, by bootstrap "
-      "over runs.");
+      "chipped (one piece holds 75 %), and of those that lose 1 to 25 % on average; and of the chipped runs alone, "
+      "without those that split at the same speed, where these lose 1 % or more on average: published laws are of "
+      "chips. "
+      "The interval is 95 %, by bootstrap over runs.");
   int number = 0;
   for (const Part& part : parts_of(study, series)) {
     ++number;

@@ -265,6 +265,23 @@ TEST_F(StudyTest, FindsTheChippingLawAndTheClasses) {
   EXPECT_EQ(json["class_map"][0]["class"], "chipped");
 }
 
+TEST_F(StudyTest, FindsTheLawOfChipsAmongRunsThatSplit) {
+  int splits = 0;
+  for (const double speed : {12.0, 14.0, 16.0, 19.0, 22.0})
+    for (int seed = 1; seed <= 6; ++seed) {
+      const bool is_split = seed < (speed - 12.0) / 2.5;
+      splits += is_split ? 1 : 0;
+      const double chips = 4e-3 * std::pow(speed / 12.0, 3.17) * (1.0 + 0.05 * std::sin(7.0 * seed));
+      add({.speed = speed, .chipping = is_split ? 0.4 : chips, .seed = seed});
+    }
+  ASSERT_EQ(splits, 1 + 2 + 3);
+  const auto laws = studied()["chipping"][0]["chipping_law"];
+  EXPECT_GT(laws[0]["exponent"].get<double>(), 5.0);  // of all runs
+  EXPECT_THAT(laws[2]["range"].get<std::string>(), HasSubstr("chipped runs alone"));
+  EXPECT_NEAR(laws[2]["exponent"].get<double>(), 3.17, 0.15);
+  EXPECT_EQ(laws[2]["slowest"], 16.0);
+}
+
 TEST_F(StudyTest, FitsBreakageFunctionsAndExportsAPopulationBalance) {
   for (double speed = 10.0; speed <= 28.0; speed += 1.0)
     for (int seed = 0; seed < 20; ++seed) {
