@@ -7,7 +7,7 @@
 #include <limits>
 #include <set>
 
-#include "study/condition_plots.hpp"
+#include "study/mean_curve.hpp"
 #include "study/summary_table.hpp"
 
 namespace knap {
@@ -67,37 +67,18 @@ void add_curves(Findings& findings, const Study& study, const Series& series, co
   findings.sections.push_back(std::move(section));
 }
 
-/// The speed at which the mean over `runs`, by condition of `list`, reaches a level; between speeds linearly. NaN if it
-/// does not.
-double speed_at_level(const Study& study, const std::vector<Condition>& list,
-                      const std::vector<std::vector<std::size_t>>& runs, const std::string& response, double level) {
-  double last_speed = 0.0, last = 0.0;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const double now = mean_of(study, runs[k], response);
-    if (now >= level)
-      return k == 0 ? list[k].speed : last_speed + (level - last) / (now - last) * (list[k].speed - last_speed);
-    last_speed = list[k].speed, last = now;
-  }
-  return std::nan("");
-}
-
 void add_thresholds(Findings& findings, const Study& study, const Series& series, Json& json) {
   const double steepest = angles_of(series).back();
   const std::vector<Condition> list = at_steepest_angle(series);
   if (list.size() < 3) return;
-  constexpr double infinity = std::numeric_limits<double>::infinity(), nan = std::numeric_limits<double>::quiet_NaN();
-  std::vector<std::vector<std::size_t>> runs;
-  for (const Condition& condition : list) runs.push_back(condition.runs);
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   const auto draws = drawn_conditions(list, bootstrap_samples);
   PageSection section{.title = titled("Threshold", series)};
   for (const std::string response : responses)
     for (const double level : {0.01, 0.05, 0.1, 0.5}) {
-      const double speed = speed_at_level(study, list, runs, response, level);
+      const double speed = MeanCurve(study, list, runs_of(list), response).speed_of(level);
       std::vector<double> speeds;
-      for (const auto& draw : draws) {
-        const double reached = speed_at_level(study, list, draw, response, level);
-        speeds.push_back(std::isnan(reached) ? infinity : reached);  // it would at a higher speed
-      }
+      for (const auto& draw : draws) speeds.push_back(MeanCurve(study, list, draw, response).speed_of(level));
       const Interval interval =
           has_repeats(list) ? Interval{quantile(speeds, 0.025), quantile(speeds, 0.975)} : Interval{nan, nan};
       json["thresholds"].push_back({{"measure", response},

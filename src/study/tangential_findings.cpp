@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
-#include "study/condition_plots.hpp"
+#include "study/mean_curve.hpp"
 #include "study/summary_table.hpp"
 
 namespace knap {
@@ -23,27 +22,6 @@ double energy_of_breaking(const StudyRun& run) {
 
 // Differences of lost mass that count as none: an intact particle may lose as much.
 constexpr double negligible = 1e-3;
-
-// The mean at a speed between those run, by a straight line of the logarithms where something is lost at both: the
-// curves are steep there, and a line through the values themselves lies above them.
-std::optional<double> at_speed(const Study& study, const std::vector<Condition>& list, const std::string& response,
-                               double speed, const std::vector<std::vector<std::size_t>>& runs) {
-  const auto mean_at = [&](std::size_t k) { return mean_of(study, runs[k], response); };
-  constexpr double same = 1e-6;
-  for (std::size_t k = 0; k < list.size(); ++k)
-    if (std::abs(list[k].speed - speed) <= same * speed) return mean_at(k);
-  for (std::size_t k = 1; k < list.size(); ++k)
-    if (list[k - 1].speed < speed && speed < list[k].speed) {
-      const double before = mean_at(k - 1), after = mean_at(k);
-      if (before > 0.0 && after > 0.0) {
-        const double t = std::log(speed / list[k - 1].speed) / std::log(list[k].speed / list[k - 1].speed);
-        return before * std::pow(after / before, t);
-      }
-      const double t = (speed - list[k - 1].speed) / (list[k].speed - list[k - 1].speed);
-      return (1.0 - t) * before + t * after;
-    }
-  return std::nullopt;
-}
 
 /// A response at one normal speed over the tangential one, and the slope.
 struct TangentialEffect {
@@ -69,17 +47,15 @@ TangentialEffect tangential_effect(const Study& study, const Series& series, con
   std::vector<std::vector<double>> drawn(samples);
   for (const double angle : angles_of(series)) {
     const std::vector<Condition> list = at_angle(series, angle);
-    std::vector<std::vector<std::size_t>> runs;
-    for (const Condition& condition : list) runs.push_back(condition.runs);
     const double speed = normal / std::sin(angle);
-    const auto value = at_speed(study, list, response, speed, runs);
-    if (!value) continue;
+    const double value = MeanCurve(study, list, runs_of(list), response).at(speed);
+    if (std::isnan(value)) continue;
     effect.tangential.push_back(speed * std::cos(angle));
-    effect.value.push_back(*value);
+    effect.value.push_back(value);
     std::vector<double> values;
     const auto draws = drawn_conditions(list, samples);
     for (std::size_t k = 0; k < draws.size(); ++k) {
-      values.push_back(*at_speed(study, list, response, speed, draws[k]));
+      values.push_back(MeanCurve(study, list, draws[k], response).at(speed));
       drawn[k].push_back(values.back());
     }
     effect.interval.push_back(central_95(values));

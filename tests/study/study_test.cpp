@@ -15,6 +15,7 @@
 #include "analysis/equivalent_velocity.hpp"
 #include "core/errors.hpp"
 #include "io/csv_line.hpp"
+#include "study/mean_curve.hpp"
 #include "study/study_runs.hpp"
 #include "study/summary_table.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -141,8 +142,12 @@ TEST_F(StudyTest, FindsTheEquivalentVelocityThatTheRunsFollow) {
                   std::sqrt(1.0 + std::pow(0.8 * std::cos(one["angle_deg"].get<double>() * degree), 2)), 0.05)
           << one;
     }
-  for (const auto& band : equal_loss["bands"]) EXPECT_NEAR(band["a_mu_median"].get<double>(), 0.8, 0.1) << band;
-  EXPECT_EQ(equal_loss["bands"].size(), 2U);
+  for (const auto& band : equal_loss["bands"]) {
+    EXPECT_NEAR(band["a_mu"].get<double>(), 0.8, 0.1) << band;
+    EXPECT_LE(band["interval"][0].get<double>(), band["a_mu"].get<double>()) << band;
+    EXPECT_GE(band["interval"][1].get<double>(), band["a_mu"].get<double>()) << band;
+  }
+  EXPECT_EQ(equal_loss["bands"].size(), 3U);
 }
 
 TEST_F(StudyTest, SaysWhereTheNormalComponentIsEnough) {
@@ -170,9 +175,35 @@ TEST_F(StudyTest, ClaimsNothingWithoutRepeats) {
   EXPECT_THAT(found["verdict"].get<std::string>(), HasSubstr("no verdict without repeats"));
   EXPECT_TRUE(found["model"]["a_mu_interval"][0].is_null());
   for (const auto& threshold : json["thresholds"]) EXPECT_TRUE(threshold["interval"][0].is_null());
+  EXPECT_FALSE(json["equal_loss"]["bands"].empty());
+  for (const auto& band : json["equal_loss"]["bands"]) EXPECT_TRUE(band["interval"][0].is_null());
+  EXPECT_THAT(outcome.verdicts, testing::Not(testing::Contains(HasSubstr("Equal loss"))));
   for (const auto& effect : json["tangential_effect"])
     EXPECT_THAT(effect["verdict"].get<std::string>(),
                 testing::Not(testing::AnyOf(HasSubstr("rises"), HasSubstr("falls"))));
+}
+
+TEST_F(StudyTest, MeansGoByLogarithmsBetweenSpeeds) {
+  for (const auto& [speed, chipping] : {std::pair{10.0, 0.0}, {20.0, 1e-3}, {40.0, 0.064}, {80.0, 0.032}})
+    add({.speed = speed, .chipping = chipping});
+  write();
+  const std::array folders{campaign()};
+  const Study study = read_study(folders, 0.0);
+  const std::vector<Condition> list = conditions(study);
+  const MeanCurve curve(study, list, runs_of(list), "chipping_ratio");
+  EXPECT_NEAR(curve.at(20.0 * std::sqrt(2.0)), 8e-3, 1e-12);  // 6th power
+  EXPECT_NEAR(curve.speed_of(8e-3), 20.0 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(curve.speed_of(0.064), 40.0, 1e-9);
+  EXPECT_EQ(curve.at(20.0), 1e-3);
+  EXPECT_EQ(curve.at(10.0), 0.0);
+  EXPECT_GT(curve.at(15.0), 0.0);
+  EXPECT_LT(curve.at(15.0), 1e-4);
+  EXPECT_GT(curve.speed_of(1e-5), 10.0);
+  EXPECT_LT(curve.speed_of(1e-5), 20.0);
+  EXPECT_EQ(curve.speed_of(0.0), 10.0);
+  EXPECT_TRUE(std::isinf(curve.speed_of(0.1)));
+  EXPECT_TRUE(std::isnan(curve.at(9.0)));
+  EXPECT_TRUE(std::isnan(curve.at(81.0)));
 }
 
 TEST_F(StudyTest, LeavesOutRunsThatCannotBeRead) {
