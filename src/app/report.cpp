@@ -147,7 +147,7 @@ Json performance(const Simulation& s, const Session& session) {
   return {{"wall_s", session.wall_seconds},
           {"tet_updates_per_s", rate},
           {"threads", session.threads},
-          {"resumed_from_step", session.first_step > 0 ? Json(session.first_step) : Json(nullptr)},
+          {"resumed_from_step", session.is_resumed ? Json(session.first_step) : Json(nullptr)},
           {"phases", phases}};
 }
 

@@ -21,8 +21,9 @@ struct Pieces {
 /// How a session of a run went.
 struct Session {
   StopReason stop_reason = StopReason::EndTime;
-  std::int64_t first_step = 0;  ///< 0, or that of the checkpoint
-  double wall_seconds = 0.0;    ///< of the steps, observers included
+  std::int64_t first_step = 0;  ///< 0, or that of the checkpoint, which may be 0 too
+  bool is_resumed = false;
+  double wall_seconds = 0.0;  ///< of the steps, observers included
   int threads = 1;
 };
 

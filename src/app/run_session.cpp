@@ -83,7 +83,7 @@ Session run_session(PreparedRun& run, const SessionOptions& options, RunLog& log
     log.before_printing([&progress] { progress.clear(); });
   }
 
-  Session session{.first_step = s.clock.step, .threads = num_threads()};
+  Session session{.first_step = s.clock.step, .is_resumed = options.resume, .threads = num_threads()};
   const auto start = std::chrono::steady_clock::now();
   session.stop_reason = knap::run(s, run.limits, observers, interrupt_requested());
   session.wall_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
