@@ -8,7 +8,6 @@
 #include <set>
 
 #include "study/mean_curve.hpp"
-#include "study/summary_table.hpp"
 
 namespace knap {
 namespace {

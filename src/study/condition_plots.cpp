@@ -78,9 +78,14 @@ bool has_repeats(const std::vector<Condition>& list) {
   return runs >= 2 * list.size();
 }
 
+std::vector<std::vector<std::size_t>> runs_of(const std::vector<Condition>& list) {
+  std::vector<std::vector<std::size_t>> runs;
+  for (const Condition& condition : list) runs.push_back(condition.runs);
+  return runs;
+}
+
 std::vector<std::vector<std::vector<std::size_t>>> drawn_conditions(const std::vector<Condition>& list, int samples) {
-  std::vector<std::vector<std::size_t>> groups;
-  for (const Condition& condition : list) groups.push_back(condition.runs);
+  const std::vector<std::vector<std::size_t>> groups = runs_of(list);
   std::vector<std::vector<std::vector<std::size_t>>> draws;
   for (const auto& pick : bootstrap_picks(groups, samples)) {
     auto next = pick.begin();

@@ -34,6 +34,8 @@ void join_points(PlotInput& plot);
 double mean_of(const Study& study, const std::vector<std::size_t>& runs, const std::string& measure_name);
 /// Two runs of a condition on average: without, a bootstrap says nothing.
 bool has_repeats(const std::vector<Condition>& list);
+/// The runs of each condition, as they were.
+std::vector<std::vector<std::size_t>> runs_of(const std::vector<Condition>& list);
 /// The runs of each condition drawn anew from themselves: [draw][condition][run].
 std::vector<std::vector<std::vector<std::size_t>>> drawn_conditions(const std::vector<Condition>& list, int samples);
 

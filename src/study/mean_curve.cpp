@@ -47,10 +47,4 @@ double MeanCurve::speed_of(double level) const {
   return std::numeric_limits<double>::infinity();
 }
 
-std::vector<std::vector<std::size_t>> runs_of(const std::vector<Condition>& list) {
-  std::vector<std::vector<std::size_t>> runs;
-  for (const Condition& condition : list) runs.push_back(condition.runs);
-  return runs;
-}
-
 }  // namespace knap

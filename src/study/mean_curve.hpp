@@ -24,7 +24,4 @@ class MeanCurve {
   std::vector<double> speeds_{}, means_{};
 };
 
-/// The runs of each condition, as they were.
-std::vector<std::vector<std::size_t>> runs_of(const std::vector<Condition>& list);
-
 }  // namespace knap

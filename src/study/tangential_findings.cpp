@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "study/mean_curve.hpp"
-#include "study/summary_table.hpp"
 
 namespace knap {
 namespace {
